@@ -15,10 +15,10 @@ namespace listric::archive {
 /// As summary.json and status.json have them: a list of objects `of`, `name`, `changed`.
 nlohmann::ordered_json rocks_json(const RockOrigins& origins);
 
-/// What a run's folder says of its rocks; none if an older program began the run.
+/// Rocks that a run's folder names; none if an older program began the run.
 std::optional<RockOrigins> recorded_rocks(const std::filesystem::path& output);
 
-/// Those of a scene: where its file is a run's record what was written down beside it.
+/// Rocks of a scene; where its file is a run's record those that were written down beside it.
 std::optional<RockOrigins> known_rocks(const Scene& scene);
 
 } // namespace listric::archive

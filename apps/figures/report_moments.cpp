@@ -352,20 +352,11 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     add("rock", [rock](std::size_t i) { return rock[i]; });
     ends["displacement_m"] = scale_end(by_disc(
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
-    add_scaled("window_strain", window_strain(now));
-    if (!settling_of(now.scene).empty()) { // else it is that
-        if (auto strain = window_tectonic_strain(now))
-            add_scaled("window_tectonic_strain", std::move(*strain));
-        if (auto strain = total_tectonic_strain(now))
-            add_scaled("total_tectonic_strain", std::move(*strain));
-    }
+    for (auto& [name, values] : strains_of(now))
+        add_scaled(name, std::move(values));
     if (state.discs.has("layer")) {
         const auto layer = state.discs.get<std::uint8_t>("layer");
         add("layer", [layer](std::size_t i) { return layer[i]; });
-    }
-    if (state.discs.has("total_strain")) {
-        const auto total = state.discs.get<double>("total_strain");
-        add_scaled("total_strain", {total.begin(), total.end()});
     }
     for (const FigureLayer& layer : figure_layers(now.scene))
         if (layer.kind == LayerKind::discs)

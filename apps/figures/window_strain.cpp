@@ -62,8 +62,17 @@ Values window_tectonic_strain(const Observation& now) {
     return values;
 }
 
-Values total_tectonic_strain(const Observation& now) {
-    return tectonic_column(now, "total_tectonic_strain", "total_strain");
+std::map<std::string, std::vector<double>> strains_of(const Observation& now) {
+    std::map<std::string, std::vector<double>> strains{{"window_strain", window_strain(now)}};
+    if (auto total = column(now, "total_strain"))
+        strains["total_strain"] = std::move(*total);
+    if (settling_of(now.scene).empty())
+        return strains;
+    if (auto window = window_tectonic_strain(now))
+        strains["window_tectonic_strain"] = std::move(*window);
+    if (auto total = column(now, "total_tectonic_strain"))
+        strains["total_tectonic_strain"] = std::move(*total);
+    return strains;
 }
 
 std::string strain_remark(const Observation& now, bool is_tectonic) {

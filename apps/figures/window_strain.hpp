@@ -2,6 +2,7 @@
 
 #include "apps/scene/effect.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +17,12 @@ std::vector<double> window_strain(const Observation& now);
 /// no such numbers.
 std::optional<std::vector<double>> window_tectonic_strain(const Observation& now);
 
-/// The sum of it since the start; none likewise.
-std::optional<std::vector<double>> total_tectonic_strain(const Observation& now);
+/// All strains that a moment knows, by the names of their columns; those without settling where
+/// something settles.
+std::map<std::string, std::vector<double>> strains_of(const Observation& now);
 
-/// What a picture of strain is without, or with, in words behind a label: " without compaction";
-/// empty where nothing settles.
+/// Words behind a label for what a picture of strain is without, or with: " without " and
+/// settling_of(); empty where nothing settles.
 std::string strain_remark(const Observation& now, bool is_tectonic);
 
 } // namespace listric

@@ -105,6 +105,9 @@ public:
     /// Shows people how far the run is, and what it does; nothing said: the extension.
     void show_progress(const std::string& what = {});
 
+    /// Writes down the scene, and the names of its rocks.
+    void begin_record();
+
     /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
     void go_on_with(archive::RunRecord earlier);
 

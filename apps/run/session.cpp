@@ -1,11 +1,9 @@
 #include "apps/run/session.hpp"
 
-#include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/run/build.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
-#include "apps/scene/scene_file.hpp"
 
 #include <fmt/format.h>
 
@@ -79,7 +77,6 @@ bool Session::resume() {
             continue;
         }
         run_.kept = *path;
-        run_.rocks = recorded_rocks(run_.options.output);
         run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
         run_.log.say(fmt::format("resuming at {} from {}",
@@ -90,8 +87,7 @@ bool Session::resume() {
 }
 
 void Session::begin() {
-    run_.record.scene = to_toml(run_.scene);
-    run_.rocks = known_rocks(run_.scene);
+    run_.begin_record();
     if (run_.scene.picked_fault)
         run_.log.say(describe(*run_.scene.picked_fault, *run_.scene.detachment));
     enter(Phase::genesis);

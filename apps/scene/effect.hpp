@@ -221,7 +221,7 @@ struct Effect {
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
-    /// What makes its sediment lower where nothing shears, in words: pictures of strain are without
+    /// Words for why its sediment gets lower where nothing shears: pictures of strain are without
     /// that strain, and say so.
     std::string_view settling = {};
     bool in_genesis = false; ///< the hanging wall before extension depends on it
@@ -285,7 +285,7 @@ std::vector<std::string_view> needed_tables(const Effect& effect, EffectList eff
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);
 
-/// What pictures of a scene's strain are without, in words ("compaction"); empty: nothing.
+/// Words for what pictures of a scene's strain are without; empty: nothing.
 std::string settling_of(const Scene& scene);
 
 /// Layers of the effects that are on.

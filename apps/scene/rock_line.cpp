@@ -80,7 +80,7 @@ std::vector<std::string> changed_of(const Scene& scene, std::size_t part, std::s
     return changed;
 }
 
-/// Of the items of an effect, each of which may name materials.
+/// Adds those of the items of an effect, each of which may name materials.
 void add_items(const Scene& scene, std::size_t part, RockOrigins& origins) {
     const Effect& effect = *scene.effects[part].effect;
     const std::any& parameters = scene.effects[part].parameters;

@@ -17,7 +17,7 @@ struct RockOrigin {
 };
 using RockOrigins = std::vector<RockOrigin>;
 
-/// Those of a scene as it was loaded. A run's record names no material: what it was begun with is
+/// Origins of a scene as it was loaded. A run's record names no material: what it was begun with is
 /// in its folder (rock_record.hpp).
 RockOrigins rock_origins(const Scene& scene);
 
@@ -25,7 +25,7 @@ RockOrigins rock_origins(const Scene& scene);
 /// friction changed; faults: mat18-w-frictional (friction 0.2); detachment friction 0.5".
 std::string rock_line(const Scene& scene);
 
-/// Of a run whose origins were recorded at its start, or not.
+/// Line of a run whose origins were recorded at its start, or not.
 std::string rock_line(const Scene& scene, const std::optional<RockOrigins>& origins);
 
 } // namespace listric

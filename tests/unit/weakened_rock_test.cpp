@@ -1,4 +1,4 @@
-// What is weakened is of a fault near a traced line or in a band as long as a trace, and else not.
+// A weakened disc is of a fault near a traced line or in a band as long as a trace, and else not.
 
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/measures/weakened_rock.hpp"
@@ -58,7 +58,8 @@ TEST(WeakenedRock, WithinFiveDiametersOfATraceIsOfIt) {
     EXPECT_EQ(of_faults(state, {fault({{-100.0, 510.0}, {900.0, 510.0}})}), 0);
     // Beyond the end of a trace, too: the discs at 0 to 500 m are 450 m and more from its end.
     EXPECT_EQ(of_faults(state, {fault({{950.0, 0.0}, {2000.0, 0.0}})}), 1);
-    EXPECT_NEAR(*weak_off_fault(state, {fault({{950.0, 0.0}, {2000.0, 0.0}})}), 5.0 / 6.0, 1e-12);
+    EXPECT_NEAR(*weak_off_fault(state, std::vector{fault({{950.0, 0.0}, {2000.0, 0.0}})}),
+                5.0 / 6.0, 1e-12);
 }
 
 TEST(WeakenedRock, BandsThatDoNotTouchAreTwo) {

@@ -104,8 +104,8 @@ def window_text(frame: Frame) -> str:
 
 
 def strain_remark(frame: Frame) -> str:
-    """What the strain is without that makes rock lower where nothing shears, or with, after a blank; empty where
-    nothing does."""
+    """Words for the strain that is left out, since rock gets lower where nothing shears, or for that it is in, after a
+    blank; empty where there is none."""
     return printable(str(frame.meta.get("strain_remark", "")))
 
 
