@@ -110,7 +110,7 @@ State sunk_block() {
 // The strain is linear in height, of which the mean of two discs' is exact, up to round-off.
 TEST(Strain, CompactionIsNoTectonicStrain) {
     const State state = sunk_block();
-    EXPECT_GT(std::ranges::max(shear_strain(state)), 0.09);
+    EXPECT_GT(std::ranges::max(shear_strain(state)), 0.07);
     for (const double gamma : *tectonic_strain(state))
         EXPECT_NEAR(gamma, 0.0, 1e-12);
 }
@@ -128,8 +128,8 @@ TEST(Strain, WhatShearsBesidesCompactionIsTectonic) {
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         EXPECT_NEAR(window[i], 0.1, 1e-12);
         EXPECT_EQ(total[i], window[i]);
-        EXPECT_GE(state.discs.get<double>("window_strain")[i], 0.1 - 1e-12);
     }
+    EXPECT_GT(std::ranges::max(state.discs.get<double>("window_strain")), 0.11);
     // The next window begins with the porosity that there is.
     for (const double gamma : *tectonic_strain(state))
         EXPECT_NEAR(gamma, 0.0, 1e-12);
