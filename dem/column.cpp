@@ -74,6 +74,11 @@ void Table::reorder(std::span<const std::int32_t> order) {
     rows_ = order.size();
 }
 
+void Table::mark_note(std::string_view name) {
+    for (Column& column : columns_)
+        column.is_note = column.is_note || column.name == name;
+}
+
 const Column* Table::find(std::string_view name) const {
     const auto it = std::ranges::find(columns_, name, &Column::name);
     return it == columns_.end() ? nullptr : &*it;

@@ -23,6 +23,9 @@ struct Column {
     Values values;
     Value initial;              ///< value of a new row
     std::string begins_as = {}; ///< name of the column whose value a new row takes, if not that
+    /// An observer wrote it for people: the hash of a state leaves it out, so that what is noted besides
+    /// changes no recorded hash. It is saved, sorted and resumed as all others.
+    bool is_note = false;
 };
 
 /// Columns of equal length. Sorting, growing, saving, resuming and hashing are one loop over
@@ -57,6 +60,17 @@ public:
         }
         return get<T>(name);
     }
+
+    /// Adds a column that no hash of a state counts, as add() does.
+    template <class T>
+    std::span<T> add_note(std::string_view name, std::string_view unit, T initial) {
+        const std::span<T> values = add<T>(name, unit, initial);
+        mark_note(name);
+        return values;
+    }
+
+    /// Marks a column as one that no hash of a state counts.
+    void mark_note(std::string_view name);
 
     /// Gives the columns that begin as another its values, in the rows from `first` on: for new
     /// rows, once they have been filled in.

@@ -236,9 +236,11 @@ std::string_view hashed_name(std::string_view name) {
     return name == "start_travel" ? "start_extension" : name;
 }
 
-void mix(std::uint64_t& h, const Table& table) {
+void mix(std::uint64_t& h, const Table& table, Notes notes) {
     mix(h, static_cast<std::uint64_t>(table.rows()));
     for (const Column& column : table.columns()) {
+        if (column.is_note && notes == Notes::left_out)
+            continue;
         for (char letter : hashed_name(column.name))
             mix(h, static_cast<std::uint8_t>(letter));
         std::visit(
@@ -267,19 +269,19 @@ void mix_of_layer(std::uint64_t& h, const Material& m) {
 
 std::uint64_t hash(const Table& table) {
     std::uint64_t h = 0x7461626c65u;
-    mix(h, table);
+    mix(h, table, Notes::counted);
     return h;
 }
 
-std::uint64_t hash(const State& state) {
+std::uint64_t hash(const State& state, Notes notes) {
     std::uint64_t h = 0x4c697374726963u;
-    mix(h, state.discs);
-    mix(h, state.contacts);
-    mix(h, state.base_contacts);
+    mix(h, state.discs, notes);
+    mix(h, state.contacts, notes);
+    mix(h, state.base_contacts, notes);
     if (state.base_nodes.rows() > 0)
-        mix(h, state.base_nodes);
+        mix(h, state.base_nodes, notes);
     for (const auto& [name, table] : state.base_memory)
-        mix(h, table);
+        mix(h, table, notes);
     for (std::size_t k = 0; k < state.materials.size(); ++k) {
         const Material& m = state.materials[k];
         mix(h, m.normal_stiffness);

@@ -148,7 +148,10 @@ bool is_valid(const State& state);
 /// Hash of every name, type and value of a table.
 std::uint64_t hash(const Table& table);
 
-/// Hash of every column and number of the state.
-std::uint64_t hash(const State& state);
+/// Whether a hash counts columns that are notes.
+enum class Notes { left_out, counted };
+
+/// Hash of every column and number of the state; of notes where they are counted.
+std::uint64_t hash(const State& state, Notes notes = Notes::left_out);
 
 } // namespace listric::dem

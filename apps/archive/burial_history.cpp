@@ -58,7 +58,8 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
         well.lines[number].values = {place.name, static_cast<double>(number),
                                      stratum.deposited_at.m / setting.extension_rate,
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
-                                     setting.sediment->surface_porosity};
+                                     setting.sediment->surface_porosity,
+                                     static_cast<double>(stratum.ids.size())};
     return well;
 }
 
@@ -97,7 +98,8 @@ LineTable burial_table(const RunFolder& run, const std::filesystem::path& drille
     LineTable table{
         "burial",
         "stratum",
-        {"name", "stratum", "deposited_at_a", "deposited_thickness_m", "deposited_porosity"},
+        {"name", "stratum", "deposited_at_a", "deposited_thickness_m", "deposited_porosity",
+         "discs"},
         {"base_depth_m", "ground_depth_m", "thickness_m", "porosity", "extension_m", "time_a",
          "age_a"}};
     if (!run.parts.sediment)

@@ -262,7 +262,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     if (state.discs.has("layer"))
         columns.push_back({"layer", numbers(state.discs.get<std::uint8_t>("layer"))});
     for (const char* name :
-         {"window_strain", "total_strain", "porosity", "excess_pressure", "overpressure_ratio"})
+         {"window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain",
+          "porosity", "excess_pressure", "overpressure_ratio"})
         if (state.discs.has(name))
             columns.push_back({name, numbers(state.discs.get<double>(name))});
     return columns;

@@ -193,6 +193,8 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
             write_number(set, "initial", std::get<T>(column.initial));
             if (!column.begins_as.empty())
                 write_text_attribute(set, "begins_as", column.begins_as);
+            if (column.is_note)
+                write_number(set, "is_note", std::int64_t{1});
             write_number(set, "position", static_cast<std::int64_t>(position));
         },
         column.values);
@@ -202,9 +204,12 @@ template <class T> Column read_values(hid_t set, const std::string& name, std::s
     std::vector<T> values(size);
     check(H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           "cannot read the column " + name);
-    return {name, read_text_attribute(set, "unit"), std::move(values),
+    return {name,
+            read_text_attribute(set, "unit"),
+            std::move(values),
             read_number<T>(set, "initial"),
-            H5Aexists(set, "begins_as") > 0 ? read_text_attribute(set, "begins_as") : ""};
+            H5Aexists(set, "begins_as") > 0 ? read_text_attribute(set, "begins_as") : "",
+            H5Aexists(set, "is_note") > 0};
 }
 
 } // namespace

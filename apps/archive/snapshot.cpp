@@ -138,7 +138,7 @@ Content content_of(const Snapshot& snapshot) {
 
 /// Hash of all that a snapshot holds, so that a damaged file is not taken for another state.
 std::uint64_t content_hash(const Content& content) {
-    std::uint64_t h = hash(content.state);
+    std::uint64_t h = hash(content.state, Notes::counted);
     const auto add = [&h](std::uint64_t word) { h = chained(h, word); };
     const auto add_text = [&](std::string_view text) {
         add(text.size());

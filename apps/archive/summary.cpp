@@ -146,11 +146,16 @@ std::span<const HeadField> head_fields() {
          [](C c) -> Json { return c.record.disc_steps / c.wall_seconds; }},
         {"finished", "", "whether the run reached its end", [](C) -> Json { return true; }},
         {"state_hash", "",
-         "hash of every column and number of the state; equal for equal runs, whatever the threads",
+         "hash of every number of the state and of every column but notes for people "
+         "(`window_tectonic_strain`); equal for equal runs, whatever the threads",
          [](C c) -> Json { return fmt::format("{:016x}", c.state_hash); }},
         {"extension_m", "m", "displacement of base and right wall",
          [](C c) -> Json { return c.state.clock.extension.m; }},
         {"cycle", "1", "cycles so far (`history.csv`)"},
+        {"rocks", "",
+         "rocks as the scene named them when the run began: a list of `of` (key in [materials], or "
+         "the layer), `name` of the material and `changed`, the parameters that are not the "
+         "material's. Not there if an older program began the run"},
         {"provenance", "",
          "`version`, `commit`, `compiler` and `instruction_set` (see also `cycle_level`) of the "
          "program that finished the run, `scene_hash` of every parameter in scene.toml, and "
@@ -197,6 +202,8 @@ std::string to_csv(const Table& table) {
 std::string summary_json(const SummaryContent& content) {
     Json json = summary_head(content);
     add_numbers(json, content);
+    if (!content.rocks.is_null())
+        json["rocks"] = content.rocks;
     json["provenance"] = content.provenance;
     json["effects"] = content.effects;
     json["warnings"] = content.warnings;

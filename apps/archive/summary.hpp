@@ -48,6 +48,7 @@ struct SummaryContent {
     std::vector<ObservedHorizon> observed = {}; ///< beside the model's
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
+    nlohmann::ordered_json rocks = {};        ///< rock_record.hpp; null: not recorded
     nlohmann::ordered_json provenance = {};   ///< provenance.hpp
     nlohmann::ordered_json known_errors = {}; ///< known_errors.hpp; null: it has none
 };

@@ -1,10 +1,10 @@
+#include "apps/archive/rock_record.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/oversize.hpp"
 #include "apps/scene/material_file.hpp"
-#include "apps/scene/rock_line.hpp"
 #include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/sweep_plan.hpp"
 #include "apps/studies/validation_plan.hpp"
@@ -77,12 +77,12 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
     const Prediction p = times.of(scene);
     const auto discs = static_cast<double>(p.discs_at_start);
     const auto at_end = static_cast<double>(p.discs_at_end);
-    return fmt::format("{} tables, {} discs{}, {}, {}; {}{}{}", tables, about(discs),
-                       at_end > 3.0 * discs ? fmt::format(" and {} at the end", about(at_end)) : "",
-                       duration(p.seconds), output_text(p), rock_line(scene),
-                       scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment)
-                                          : "",
-                       lines_of(scene.warnings));
+    return fmt::format(
+        "{} tables, {} discs{}, {}, {}; {}{}{}", tables, about(discs),
+        at_end > 3.0 * discs ? fmt::format(" and {} at the end", about(at_end)) : "",
+        duration(p.seconds), output_text(p), rock_line(scene, archive::known_rocks(scene)),
+        scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment) : "",
+        lines_of(scene.warnings));
 }
 
 std::string check_sweep(const fs::path& file, Times& times) {

@@ -1,7 +1,7 @@
 #include "apps/commands/explain.hpp"
 
+#include "apps/archive/rock_record.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/rock_line.hpp"
 #include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +128,8 @@ std::string explain(const Scene& scene, int threads, EffectList effects) {
 
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
     const Prediction p = predict(scene, speed);
-    return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description, rock_line(scene)) +
+    return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description,
+                       rock_line(scene, archive::known_rocks(scene))) +
            explain_effects(scene, effects) + explain_size(scene, p) + explain_intervals(scene) +
            explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +
            "accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 "

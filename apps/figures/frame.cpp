@@ -110,12 +110,10 @@ void write_bonds(const FrameWriter& writer, const State& state) {
     writer.array("bonded", bonded, 5);
 }
 
-void write_behaviour(const FrameWriter& writer, const State& state) {
-    const ConstDiscColumns d = disc_columns(state);
-    const std::vector<double> unbonded = measures::unbonded_shares(state);
+void write_behaviour(const FrameWriter& writer, const State& state,
+                     const std::vector<Fault>& faults) {
     std::vector<std::int32_t> classes;
-    for (const auto behaviour :
-         measures::rock_behaviour(unbonded, d.stratum, d.material, state.materials))
+    for (const auto behaviour : measures::rock_behaviour(state, faults))
         classes.push_back(static_cast<std::int32_t>(behaviour));
     writer.array("discs_behaviour", std::span<const std::int32_t>(classes));
 }
@@ -299,11 +297,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
                  const std::optional<Underlay>& underlay, const std::optional<MomentNames>& names) {
     const FrameWriter writer(folder);
     write_discs(writer, now.state);
-    const std::vector<double> strain = window_strain(now);
+    const auto tectonic = window_tectonic_strain(now);
+    const std::vector<double> strain = tectonic ? *tectonic : window_strain(now);
     writer.array("discs_shear_strain", strain);
     if (now.parts.bonds) {
         write_bonds(writer, now.state);
-        write_behaviour(writer, now.state);
+        write_behaviour(writer, now.state, faults.faults);
     }
     write_base(writer, now);
     write_profile(writer, now);
@@ -336,6 +335,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     }
     nlohmann::json frame = frame_json(now, m);
     frame["strain_end"] = scale_end(strain);
+    frame["strain_remark"] = strain_remark(now, tectonic.has_value());
     frame["layers"] = declared_layers(now.scene);
     if (now.parts.base.motion.shortens(just_before(now.parts.base.motion, now.state.clock))) {
         write_tops(writer, now);

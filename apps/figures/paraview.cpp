@@ -149,7 +149,8 @@ std::string discs_file(const State& state, const RigidBase& base) {
     file.array(file.point_data, "velocity_m_per_s", velocity, 3);
     file.array(file.point_data, "stress_pa", stress, 3, {"XX", "YY", "XY"});
     for (const char* name :
-         {"window_strain", "total_strain", "porosity", "excess_pressure", "overpressure_ratio"})
+         {"window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain",
+          "porosity", "excess_pressure", "overpressure_ratio"})
         if (state.discs.has(name))
             file.array(file.point_data, name, as<float>(state.discs.get<double>(name)));
     if (state.discs.has("darcy_x")) {

@@ -68,6 +68,8 @@ std::map<std::string, Scale> scales(double mean_radius) {
             {"start_travel_m", {1.0 / fineness(mean_radius)}},
             {"window_strain", strain},
             {"total_strain", strain},
+            {"window_tectonic_strain", strain},
+            {"total_tectonic_strain", strain},
             {"mean_stress_pa", stress},
             {"shear_stress_pa", stress}};
 }
@@ -248,7 +250,11 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
             lines["layers"][data_name(layer)] = layer.rows(now);
     const std::string text = to_text(lines);
     const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
-    return {base64(deflated({bytes, text.size()}, compression)), followed};
+    SectionLines packed{base64(deflated({bytes, text.size()}, compression)), followed};
+    if (now.parts.bonds)
+        for (const RockBehaviour one : rock_behaviour(now.state, faults.faults))
+            packed.behaviour.push_back(static_cast<std::uint8_t>(one));
+    return packed;
 }
 
 std::string report_scales(double mean_radius) {
@@ -302,6 +308,7 @@ std::string ReportMoments::bonds(const State& state) {
 /// None reads what another one changes.
 /// @param ends  gets where the scales of their colours end
 std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now,
+                                                          std::span<const std::uint8_t> behaviour,
                                                           std::map<std::string, double>& ends) {
     const State& state = now.state;
     const ConstDiscColumns d = disc_columns(state);
@@ -346,14 +353,11 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     add("rock", [rock](std::size_t i) { return rock[i]; });
     ends["displacement_m"] = scale_end(by_disc(
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
-    add_scaled("window_strain", window_strain(now));
+    for (auto& [name, values] : strains_of(now))
+        add_scaled(name, std::move(values));
     if (state.discs.has("layer")) {
         const auto layer = state.discs.get<std::uint8_t>("layer");
         add("layer", [layer](std::size_t i) { return layer[i]; });
-    }
-    if (state.discs.has("total_strain")) {
-        const auto total = state.discs.get<double>("total_strain");
-        add_scaled("total_strain", {total.begin(), total.end()});
     }
     for (const FigureLayer& layer : figure_layers(now.scene))
         if (layer.kind == LayerKind::discs)
@@ -361,10 +365,8 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
                 return 255.0 * std::clamp(shares[i], 0.0, 1.0);
             });
     if (now.parts.bonds) {
-        const auto classes = rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material,
-                                            state.materials);
         const std::vector<std::int32_t> count = bonds_per_disc(state);
-        add("behaviour", [classes](std::size_t i) { return static_cast<int>(classes[i]); });
+        add("behaviour", [behaviour](std::size_t i) { return static_cast<int>(behaviour[i]); });
         add("bonds", [count](std::size_t i) { return count[i]; });
         if (detail_.bonds)
             streams.push_back([this, &state] { return bonds(state); });
@@ -384,7 +386,7 @@ void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     const Clock& clock = now.state.clock;
     if (at_ != clock.travel) {
         std::map<std::string, double> ends;
-        const std::vector<Stream> to_pack = streams(now, ends);
+        const std::vector<Stream> to_pack = streams(now, lines.behaviour, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
         const std::string travel = now.parts.base.motion.stages.empty()

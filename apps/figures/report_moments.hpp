@@ -22,10 +22,12 @@ struct ReportDetail {
     int every = 1; ///< n: every n-th snapshot, and the last
 };
 
-/// The lines of a section as the page of a report reads them, packed.
+/// The lines of a section as the page of a report reads them, packed, and what the faults among
+/// them make of its discs.
 struct SectionLines {
     std::string packed;
-    bool followed = false; ///< faults back to their birth
+    bool followed = false;                    ///< faults back to their birth
+    std::vector<std::uint8_t> behaviour = {}; ///< class of rock by row; empty without bonds
 };
 
 using LinesOfMoments = std::map<dem::Travel, SectionLines>;
@@ -64,7 +66,8 @@ private:
     };
 
     using Stream = std::function<std::string()>; ///< makes the text of some numbers
-    std::vector<Stream> streams(const Observation& now, std::map<std::string, double>& ends);
+    std::vector<Stream> streams(const Observation& now, std::span<const std::uint8_t> behaviour,
+                                std::map<std::string, double>& ends);
     std::string bonds(const dem::State& state);
 
     ReportDetail detail_;

@@ -12,7 +12,6 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/differences.hpp"
 #include "apps/scene/effect.hpp"
-#include "apps/scene/rock_line.hpp"
 #include "apps/scene/stage.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
@@ -59,12 +58,6 @@ json object_or_null(const std::string& text) {
     return object.is_object() ? json(object) : json();
 }
 
-/// Rocks by their properties alone: a report that is made again knows no files of the user's.
-std::string rock_of(Scene scene) {
-    scene.rocks.clear();
-    return rock_line(scene);
-}
-
 /// Answers to "Is this run good?" by the summary; none before the run has ended.
 json quality_of(const ReportPage::Run& run) {
     json list = json::array();
@@ -101,10 +94,11 @@ json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
     json head{{"scene", scene.name},
               {"description", scene.description},
-              {"rock", rock_of(scene)},
+              {"rock", rock_line(scene, run.rocks)},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
               {"layers", declared_layers(scene)},
+              {"settling", settling_of(scene)},
               {"length_m", scene.hanging_wall.length},
               {"thickness_m", scene.hanging_wall.thickness},
               {"extension_m", greatest_extension(scene)},

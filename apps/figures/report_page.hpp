@@ -2,6 +2,7 @@
 
 #include "apps/figures/frame.hpp"
 #include "apps/figures/report_moments.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <optional>
@@ -22,6 +23,7 @@ struct ReportPage {
         std::string folder = {};  ///< with a separator, for messages
         bool has_summary = false; ///< the file is there, be it empty
         bool base_moves = false;  ///< the detachment deforms
+        std::optional<RockOrigins> rocks = std::nullopt; ///< none: not recorded
     };
     std::vector<Run> runs;
     std::string left_out = {}; ///< parts left out so that the file is smaller

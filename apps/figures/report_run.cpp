@@ -1,6 +1,7 @@
 #include "apps/figures/report_run.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
@@ -66,10 +67,11 @@ ReportPage page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
     std::error_code error;
     for (const ReadRun& run : runs) {
         const fs::path& folder = run.folder.output;
-        page.runs.push_back(
-            {run.folder.scene, run.moments, run.mean_radius, to_csv(run.folder.moments.history),
-             read_text_if_there(folder / "summary.json"), (folder / "").string(),
-             fs::exists(folder / "summary.json", error), run.folder.parts.base_moves});
+        page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
+                             to_csv(run.folder.moments.history),
+                             read_text_if_there(folder / "summary.json"), (folder / "").string(),
+                             fs::exists(folder / "summary.json", error),
+                             run.folder.parts.base_moves, recorded_rocks(folder)});
     }
     return page;
 }

@@ -43,6 +43,7 @@ struct FaultReport {
                                            ///< less the extension from its birth to that line, m
     std::optional<double> width;           ///< median over faults by length, diameters
     std::optional<double> sediment_weak_off_fault_fraction;
+    std::optional<double> weak_off_fault_fraction; ///< of what is weakened: weakened_rock.hpp
 };
 
 } // namespace listric::measures

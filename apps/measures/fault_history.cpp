@@ -3,6 +3,7 @@
 #include "apps/measures/fault_throw.hpp"
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/measures/rock.hpp"
+#include "apps/measures/weakened_rock.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/cells.hpp"
@@ -19,9 +20,6 @@ namespace listric::measures {
 using namespace dem;
 
 namespace {
-
-/// Distance of sediment from every trace, mean diameters, from which on it is off the faults.
-constexpr double off_fault = 5.0;
 
 /// Faults are looked for in units of a mean disc's diameter, or of this share of the hanging wall's
 /// thickness if that is more: a standard disc of 15 km.
@@ -361,9 +359,11 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         });
     }
     summarise(report, detachment, diameter);
-    if (setting.detection_circle)
+    if (setting.detection_circle) {
         report.sediment_weak_off_fault_fraction =
-            weak_off_faults(now, report.faults, off_fault * diameter);
+            weak_off_faults(now, report.faults, of_fault * diameter);
+        report.weak_off_fault_fraction = weak_off_fault(now, report.faults);
+    }
     return report;
 }
 

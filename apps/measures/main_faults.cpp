@@ -208,6 +208,11 @@ std::span<const Measure<FaultReport>> fault_report_measures() {
          "share of the sediment, by area, that is weakened and further than 5 diameters from every "
          "trace",
          taken<&R::sediment_weak_off_fault_fraction>},
+        {"weak_off_fault_fraction", "1",
+         "share of the weakened discs, by area, that is of no fault: further than 5 diameters from "
+         "every trace, and in no band of touching weakened discs that is 12 diameters long or "
+         "longer, as the shortest trace; pictures paint it in a colour of its own",
+         taken<&R::weak_off_fault_fraction>},
     };
     return all;
 }

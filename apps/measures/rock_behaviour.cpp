@@ -1,5 +1,6 @@
 #include "apps/measures/rock_behaviour.hpp"
 
+#include "apps/measures/weakened_rock.hpp"
 #include "dem/contacts/contacts.hpp"
 
 #include <cassert>
@@ -19,6 +20,17 @@ std::vector<double> unbonded_shares(const dem::State& state) {
     for (std::size_t i = 0; i < contacts.size(); ++i)
         unbonded[i] = contacts[i] > 0.0 ? unbonded[i] / contacts[i] : 1.0;
     return unbonded;
+}
+
+std::vector<RockBehaviour> rock_behaviour(const dem::State& state, std::span<const Fault> faults) {
+    const dem::ConstDiscColumns d = dem::disc_columns(state);
+    std::vector<RockBehaviour> behaviour =
+        rock_behaviour(unbonded_shares(state), d.stratum, d.material, state.materials);
+    const std::vector<bool> of_fault = weakened_by_faults(state, faults);
+    for (std::size_t i = 0; i < behaviour.size(); ++i)
+        if (behaviour[i] == RockBehaviour::weakened && !of_fault[i])
+            behaviour[i] = RockBehaviour::weak_off_fault;
+    return behaviour;
 }
 
 std::vector<RockBehaviour> rock_behaviour(std::span<const double> unbonded_share,

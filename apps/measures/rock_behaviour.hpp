@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/fault.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -15,13 +16,17 @@ enum class RockBehaviour : std::int32_t {
     plastic = 1,        ///< minor faults: more than a stray crack
     weakened = 2,       ///< major faults
     unconsolidated = 3, ///< sediment whose bonds are mainly not there, yet or any more
+    weak_off_fault = 4, ///< weakened, but of no fault (weakened_rock.hpp)
 };
 
 /// Share of every disc's contacts that are not bonded; 1 for a disc without contacts.
 std::vector<double> unbonded_shares(const dem::State& state);
 
-/// Class of every disc. The spans have its share of unbonded contacts, its stratum and the number
-/// of its material among `materials`.
+/// Class of every disc where these faults are traced.
+std::vector<RockBehaviour> rock_behaviour(const dem::State& state, std::span<const Fault> faults);
+
+/// Class of every disc, as if all that is weakened were of a fault. The spans have its share of
+/// unbonded contacts, its stratum and the number of its material among `materials`.
 std::vector<RockBehaviour> rock_behaviour(std::span<const double> unbonded_share,
                                           std::span<const std::int32_t> stratum,
                                           std::span<const std::uint8_t> material,

@@ -2,7 +2,6 @@
 
 #include "apps/measures/main_faults.hpp"
 #include "apps/run/build.hpp"
-#include "apps/scene/scene_file.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +25,7 @@ struct Run::Parts {
         options.threads = threads;
         const dem::Team team(threads);
         add_events(simulation, view);
-        view.record.scene = to_toml(scene);
+        view.begin_record();
         start(simulation, view);
         end_window();
     }

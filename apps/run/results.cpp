@@ -53,6 +53,14 @@ std::string main_fault(const char* name, const Fault& fault) {
     return text;
 }
 
+/// "; 12 % of what is weakened is of no fault", from a hundredth on
+std::string off_faults(const FaultReport& report) {
+    const double share = report.weak_off_fault_fraction.value_or(0.0);
+    return share < 0.01
+               ? ""
+               : fmt::format("; {:.0f} % of what is weakened is of no fault", 100.0 * share);
+}
+
 /// The main faults, or why there is none.
 std::string main_faults(const FaultReport& report) {
     std::vector<std::string> parts;
@@ -109,7 +117,7 @@ std::vector<std::string> result_lines(const Results& r) {
     std::vector<std::string> lines{head_block(r.measures), basin(r)};
     if (r.measures.depocentres)
         lines.push_back(depocentres_of(*r.measures.depocentres));
-    lines.push_back(main_faults(r.faults));
+    lines.push_back(main_faults(r.faults) + off_faults(r.faults));
     lines.push_back(quality(r));
     std::erase(lines, "");
     return lines;

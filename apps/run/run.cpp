@@ -1,12 +1,12 @@
 #include "apps/run/run.hpp"
 
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
-#include "apps/scene/rock_line.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
@@ -52,7 +52,8 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList o
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
-    log.say(rock_line(scene));
+    log.say(rock_line(scene, list_snapshots(output).empty() ? known_rocks(scene)
+                                                            : recorded_rocks(output)));
     note_memory_need(predict(scene).memory);
     try {
         const Team team(options.threads);

@@ -2,12 +2,14 @@
 
 #include "apps/archive/dictionary.hpp"
 #include "apps/archive/examine.hpp"
+#include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/progress_line.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "apps/support/version.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 
@@ -134,9 +136,15 @@ void RunView::show_progress(const std::string& what) {
     });
 }
 
+void RunView::begin_record() {
+    record.scene = to_toml(scene);
+    rocks = known_rocks(scene);
+}
+
 void RunView::go_on_with(const fs::path& snapshot, RunRecord earlier, const std::string& writer) {
     kept = snapshot;
     record = std::move(earlier);
+    rocks = recorded_rocks(options.output);
     std::vector<std::string>& versions = record.earlier_versions;
     if (writer != version && std::ranges::find(versions, writer) == versions.end())
         versions.push_back(writer);

@@ -10,6 +10,7 @@
 #include "apps/run/part.hpp"
 #include "apps/run/time_left.hpp"
 #include "apps/scene/effect.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/moment_names.hpp"
 #include "dem/simulation.hpp"
@@ -47,6 +48,7 @@ public:
     NamedNumbers numbers;                           ///< of outputs, for summary.json
     std::vector<archive::ObservedHorizon> observed; ///< misfits of picked horizons
     std::string summary;                            ///< summary.json, once the run is closed
+    std::optional<RockOrigins> rocks;               ///< as the run was begun; none: not recorded
 
     const dem::State& state() const { return simulation.state(); }
     dem::Travel travel() const { return simulation.travel(); }
@@ -102,6 +104,9 @@ public:
 
     /// Shows people how far the run is, and what it does; nothing said: the extension.
     void show_progress(const std::string& what = {});
+
+    /// Writes down the scene, and the names of its rocks.
+    void begin_record();
 
     /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
     /// @param writer  version of the program that kept it

@@ -4,7 +4,6 @@
 #include "apps/run/build.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
-#include "apps/scene/scene_file.hpp"
 
 #include <fmt/format.h>
 
@@ -88,7 +87,7 @@ bool Session::resume() {
 }
 
 void Session::begin() {
-    run_.record.scene = to_toml(run_.scene);
+    run_.begin_record();
     if (run_.scene.picked_fault)
         run_.log.say(describe(*run_.scene.picked_fault, *run_.scene.detachment));
     enter(Phase::genesis);

@@ -39,6 +39,14 @@ std::vector<std::string> effect_names(const Scene& scene) {
     return names;
 }
 
+std::string settling_of(const Scene& scene) {
+    std::string words;
+    for (const EffectPart& part : scene.effects)
+        if (!part.effect->settling.empty())
+            words.append(words.empty() ? "" : ", ").append(part.effect->settling);
+    return words;
+}
+
 std::vector<FigureLayer> figure_layers(const Scene& scene) {
     std::vector<FigureLayer> layers;
     for (const EffectPart& part : scene.effects)

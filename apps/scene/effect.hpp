@@ -227,7 +227,10 @@ struct Effect {
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
-    bool in_genesis = false;                  ///< the hanging wall before extension depends on it
+    /// Words for why its sediment gets lower where nothing shears: pictures of strain are without
+    /// that strain, and say so.
+    std::string_view settling = {};
+    bool in_genesis = false; ///< the hanging wall before extension depends on it
     /// Sets to defaults what of its parameters the hanging wall does not depend on; null: on all.
     void (*as_in_genesis)(std::any& parameters) = nullptr;
 
@@ -288,6 +291,9 @@ std::vector<std::string_view> needed_tables(const Effect& effect, EffectList eff
 
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);
+
+/// Words for what pictures of a scene's strain are without; empty: nothing.
+std::string settling_of(const Scene& scene);
 
 /// Layers of the effects that are on.
 std::vector<FigureLayer> figure_layers(const Scene& scene);

@@ -78,7 +78,7 @@ struct Scene : Heading {
     std::vector<std::string> warnings;        ///< oddities of its files; no part of the run
     std::vector<std::filesystem::path> files; ///< that were read for it; none of them may be lost
     std::map<std::string, std::filesystem::path, std::less<>>
-        rocks; ///< files by key of [materials]
+        rocks; ///< files by key of [materials], and of layers by path, "layer[0].material"
 
     /// The parameters of an effect, by their type; null where it is off.
     template <class Parameters> const Parameters* find() const {

@@ -228,6 +228,8 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
         const std::string file = named_file(entry, name, folder, parameter.naming);
         if (parameter.naming != FileParameter::material_or_none || file != no_file)
             scene.files.emplace_back(file);
+        if (parameter.naming != FileParameter::path && file != no_file)
+            scene.rocks.emplace(path, file);
         const Refuse refuse = [&](const std::string& at, const std::string& message) {
             fail(entry_at(document, at), message);
         };
@@ -482,9 +484,10 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     check_rocks(scene, rocks, document);
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     scene.files.push_back(path);
-    scene.rocks = rocks.files();
-    for (const auto& [key, file] : scene.rocks)
+    for (const auto& [key, file] : rocks.files()) {
+        scene.rocks.emplace(key, file);
         scene.files.push_back(file);
+    }
     return scene;
 }
 

@@ -14,7 +14,7 @@ Table selected(const Table& table, std::span<const std::int32_t> rows,
     for (const Column& column : table.columns()) {
         if (is_wanted && !is_wanted(column.name))
             continue;
-        Column part{column.name, column.unit, {}, column.initial, column.begins_as};
+        Column part{column.name, column.unit, {}, column.initial, column.begins_as, column.is_note};
         std::visit(
             [&](const auto& values) {
                 std::decay_t<decltype(values)> chosen;
@@ -59,6 +59,7 @@ void add_table(const Table& table, BytesOut& to) {
         to.add(std::string_view(column.name));
         to.add(std::string_view(column.unit));
         to.add(std::string_view(column.begins_as));
+        to.add(column.is_note);
         to.add(column.values.index());
         std::visit([&](const auto& values) { to.add(values); }, column.values);
         std::visit([&](const auto& initial) { to.add(initial); }, column.initial);
@@ -86,6 +87,7 @@ Table take_table(BytesIn& from) {
         column.name = from.take_text();
         column.unit = from.take_text();
         column.begins_as = from.take_text();
+        column.is_note = from.take<bool>();
         take_values(from, from.take<std::size_t>(), column);
         table.set(std::move(column));
     }

@@ -80,14 +80,14 @@ def frame(name, snapshot, deposits, strain_end=0.4):
                                         strata_colours(deposits).colors]))
     norm = BoundaryNorm(np.arange(-0.5, count + 0.5), count)
     draw_section(above, stratum_picture(snapshot), colours, norm, detachment)
-    draw_section(below, snapshot.raster("window_strain", SPACING), STRAIN,
+    draw_section(below, snapshot.raster("window_tectonic_strain", SPACING), STRAIN,
                  plt.Normalize(0.0, strain_end), detachment)
     if extension > 0.01:
         draw_faults(below, snapshot)
     above.set_title(f"{name}: {extension:.1f} km of extension, {extension / 10.0:.2f} Myr", loc="left",
                     fontsize=11, color=INK)
     above.set_title("syn-rift strata, each 0.05 Myr", loc="right", fontsize=9, color=INK)
-    below.set_title("shear strain of the last 500 m; lines: active faults", loc="right", fontsize=9,
+    below.set_title("shear strain of the last 500 m, without compaction; lines: active faults", loc="right", fontsize=9,
                     color=INK)
     below.set_xlabel("km", fontsize=9, color=INK)
     for axes in (above, below):

@@ -232,13 +232,13 @@ class Report(Browsed):
         found = []
         for folder in folders:
             frame = frames.load_frame(str(folder))
-            measured = np.bincount(np.load(folder / "discs_behaviour.npy"), minlength=4).tolist()
+            measured = np.bincount(np.load(folder / "discs_behaviour.npy"), minlength=5).tolist()
             k, present, rock, strata, end, weak, strain = self.script(
                 "const [run] = page.runs, k = run.nearest(a[0]); page.t = k;"
-                "await run.load(['behaviour', 'start_depth_m', 'layer_weak', 'window_strain']);"
+                "await run.load(['behaviour', 'start_depth_m', 'layer_weak', 'window_tectonic_strain']);"
                 "const colours = mode => Array.from(discColours(run, k, mode, 'figures', 1, a[1]), cssColour);"
                 "return [k, Array.from(run.codes[k].present), colours('rock'), colours('strata'),"
-                "run.moments[k].ends.window_strain, Array.from(run.codes[k].layer_weak), colours('window')];",
+                "run.moments[k].ends.window_tectonic_strain, Array.from(run.codes[k].layer_weak), colours('window')];",
                 frame.meta["extension_m"], frame.strata)
             there = np.flatnonzero(present)
             self.assertEqual(counted(drawn(frame, "behaviour")[0]), measured)
@@ -413,6 +413,33 @@ class Report(Browsed):
             self.assertAlmostEqual(travel, discs["start_travel"][mine][0], delta=1.0)
         self.assertEqual(len(strata), len(set(discs["stratum"])) - 1)
         self.assertEqual(len(self.driver.find_elements("css selector", "#wheeler canvas")), 1)
+
+    def test_07f_cells_of_time_hold_three_discs_and_the_rest_is_not_resolved(self):
+        self.open()
+        def cells(*discs):
+            return [tuple(cell) for cell in self.script(
+                "return wheelerCells(a[0]).map(cell => [cell.first, cell.last, cell.discs]);", list(discs))]
+        self.assertEqual(cells(1, 1, 1, 1, 1, 1), [(0, 2, 3), (3, 5, 3)])
+        self.assertEqual(cells(3, 4, 5), [(0, 0, 3), (1, 1, 4), (2, 2, 5)])
+        # A disc a stratum: three that are missing are a hiatus, two are what a disc is too large for.
+        self.assertEqual(cells(1, 1, 1, 0, 0, 0, 1, 1, 1), [(0, 2, 3), (6, 8, 3)])
+        self.assertEqual(cells(1, 1, 1, 0, 0, 1, 1, 1), [(0, 2, 3), (3, 7, 3)])
+        # A disc in ten strata: ten without one are none.
+        slow = [1, *[0] * 9] * 6
+        self.assertEqual([(first, last) for first, last, _ in cells(*slow)], [(0, 20), (21, 59)])
+        # Before the basin reached a place there is nothing; what has fewer than three discs is not resolved.
+        self.assertEqual(cells(0, 0, 0, 0, 2, 1, 3), [(4, 5, 3), (6, 6, 3)])
+        self.assertEqual(cells(0, 0, 0, 0, 1, 1), [(4, 5, 2)])
+        self.assertEqual(cells(0, 0, 0), [])
+        # Of the run: every disc is in a cell, a cell that is told apart has three, and words agree with colours.
+        found, discs = self.script(
+            "const [run] = page.runs, chart = wheelerChart(run, page.t, 4 * run.head.mean_radius_m), {present, stratum} = run.codes[page.t];"
+            "return [chart.cells.map(cell => [cell.discs, cell.rate, wheelerWords(run, cell)]), present.filter((there, i) => there && stratum[i] > 0).length];")
+        self.assertEqual(sum(count for count, _, _ in found), discs)
+        for count, rate, words in found:
+            self.assertEqual(rate is None, count < 3)
+            self.assertEqual("not resolved" in words, count < 3)
+        self.assertIn("fewer than three discs", self.driver.find_element("id", "wheeler_legend").text)
 
     def test_07g_the_pointer_reads_out(self):
         self.open(words="#colour=strata&shown=")

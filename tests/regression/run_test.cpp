@@ -889,7 +889,8 @@ TEST_F(RunTest, EffectsThatAreOffCostNothing) {
     std::ranges::set_difference(names(snapshot.state.discs), names(empty_state().discs),
                                 std::inserter(strain, strain.end()));
     EXPECT_THAT(strain, Each(testing::AnyOf("window_x", "window_y", "in_window", "window_strain",
-                                            "total_strain", "mean_vx", "mean_vy")));
+                                            "total_strain", "window_tectonic_strain",
+                                            "total_tectonic_strain", "mean_vx", "mean_vy")));
     EXPECT_EQ(names(snapshot.state.contacts), names(empty_state().contacts));
     EXPECT_EQ(names(snapshot.state.base_contacts), names(empty_state().base_contacts));
     const json result = summary(output);

@@ -446,7 +446,7 @@ class Frames(Folder):
         for name, value, problem in (
                 ("discs_y", [1.0], "discs_y.npy has 1 values, discs_x.npy 4"),
                 ("discs_behaviour", [1], "discs_behaviour.npy has 1 values"),
-                ("discs_behaviour", [0, 1, 2, 4], "unknown class"),
+                ("discs_behaviour", [0, 1, 2, 5], "unknown class"),
                 ("discs_radius", [1.0, 1.0, 0.0, 1.0], "not positive"),
                 ("discs_x", [np.nan] * 4, "not finite"),
                 ("discs_x", [[1.0]], "expected one dimension"),
@@ -637,6 +637,22 @@ class Drawing(Folder):
         told = caption.caption(["strain"], None, frame, plot.Order())
         self.assertIn(f"maximum shear strain, {words}.", told)
         self.assertIn("faults active since the previous snapshot", told)   # which may be any way before
+
+    def test_strain_says_what_it_is_without(self):
+        for remark in (" without settling", " with settling", None):
+            frame = self.frame({"strain_remark": remark})
+            [ax, _] = sections.draw_figure(frame, ["strain"], 20).axes
+            self.assertIn(f"Shear strain{remark or ''}, last 500 m of extension", [text.get_text() for text in ax.texts])
+            self.assertIn(f"maximum shear strain{remark or ''}, last 500 m of extension",
+                          caption.caption(["strain"], None, frame, plot.Order()))
+
+    def test_weakened_rock_of_no_fault_has_a_colour_of_its_own(self):
+        frame = self.frame(discs_behaviour=np.array([0, 2, 4, 4], dtype=np.int32))
+        figure = sections.draw_figure(frame, ["behaviour"], 20)
+        labels = [text.get_text() for legend in figure.legends + [ax.get_legend() for ax in figure.axes] if legend
+                  for text in legend.get_texts()]
+        self.assertIn("weakened, no fault traced", labels)
+        self.assertNotIn("unconsolidated sediment", labels)   # there is none
 
     def test_the_footer_says_what_was_computed(self):
         frame = self.frame({"accuracy": "draft", "seed": 3, "effects": ["one", "two"],

@@ -23,6 +23,24 @@ TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
     EXPECT_THAT(html, HasSubstr(R"j("label":"dip at birth (°)","name":"dip_at_birth_deg")j"));
 }
 
+TEST(ReportPage, NamesRocksAsTheyWereRecordedAndGuessesNone) {
+    Scene scene; // the numbers of mat18-b
+    const ReportMoments moments;
+    const auto rock = [&](std::optional<RockOrigins> origins) {
+        const std::string html =
+            report_html({.runs = {{.scene = scene,
+                                   .moments = moments,
+                                   .mean_radius = 75.0,
+                                   .history = "extension_m\n0\n",
+                                   .rocks = std::move(origins)}}});
+        const std::size_t at = html.find("\"rock\":\"");
+        return html.substr(at + 8, html.find('"', at + 8) - at - 8);
+    };
+    EXPECT_EQ(rock(std::nullopt), "rock: not recorded");
+    EXPECT_EQ(rock(RockOrigins{{"basement", "granite", {"bonds.friction"}}}),
+              "rock: granite, friction changed");
+}
+
 TEST(ReportPage, NothingOfASceneIsATag) {
     Scene scene;
     scene.description = "</script><img src=x onerror=alert(1)>";

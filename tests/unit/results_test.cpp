@@ -61,6 +61,16 @@ TEST(Results, AreFewerWhereLessIsInTheScene) {
                 StartsWith("3 faults are traced, but none is a main one"));
 }
 
+TEST(Results, SayHowMuchOfWhatIsWeakenedIsOfNoFault) {
+    FaultReport report;
+    report.weak_off_fault_fraction = 0.126;
+    EXPECT_EQ(result_lines({good_measures(), report, {}, {}})[1],
+              "no fault is traced in the last window; 13 % of what is weakened is of no fault");
+    report.weak_off_fault_fraction = 0.0;
+    EXPECT_EQ(result_lines({good_measures(), report, {}, {}})[1],
+              "no fault is traced in the last window");
+}
+
 TEST(Results, SayWhatIsDoubtful) {
     Measures hasty = good_measures();
     hasty.quasi_static = false;

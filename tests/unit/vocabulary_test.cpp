@@ -34,7 +34,7 @@ TEST(Vocabulary, IsThatOfTheMeasures) {
     using enum measures::RockBehaviour;
     const auto words = vocabulary();
     const auto& classes = words["rock_classes"];
-    ASSERT_EQ(classes.size(), 4u);
+    ASSERT_EQ(classes.size(), 5u);
     const auto name = [&](measures::RockBehaviour kind) {
         return classes[static_cast<std::size_t>(kind)]["name"].get<std::string>();
     };
@@ -42,6 +42,7 @@ TEST(Vocabulary, IsThatOfTheMeasures) {
     EXPECT_EQ(name(plastic), "plastic");
     EXPECT_EQ(name(weakened), "weakened");
     EXPECT_EQ(name(unconsolidated), "unconsolidated");
+    EXPECT_EQ(name(weak_off_fault), "weak_off_fault");
     EXPECT_EQ(words["pre_rift"]["layer_m"], measures::HorizonOptions().pre_rift_layer);
 }
 

@@ -95,6 +95,7 @@ TEST_F(Burial, DecompactsToTheThicknessThatWasDeposited) {
                     number(row, "thickness_m"), 0.01);
         EXPECT_NEAR(number(row, "time_a") + number(row, "age_a"), 41000.0, 1.0);
         EXPECT_EQ(number(row, "deposited_porosity"), porosity_as_deposited);
+        EXPECT_GE(number(row, "discs"), 1.0);
         EXPECT_GE(number(row, "ground_depth_m"), 0.0);
         if (number(row, "age_a") > 0.0)
             continue;

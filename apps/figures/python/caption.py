@@ -4,14 +4,14 @@ import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import letter, moment_text, time_text, window_text
+from page import letter, moment_text, strain_remark, time_text, window_text
 from plot import Order
 
 SHOWN = {
     "strata": "syn-rift strata by age and pre-rift layers by depth at the start",
     "bonds": "intact bonds between discs",
-    "behaviour": "rock behaviour by the share of broken bonds",
-    "strain": "maximum shear strain, {window}",
+    "behaviour": "rock behaviour by the share of broken bonds, weakened rock by whether a fault is traced there",
+    "strain": "maximum shear strain{remark}, {window}",
     "sediment": "thickness of the sediment (mean over 1 km) and depth of the pre-rift top",
     "kinematics": "pre-rift top beside kinematic predictions",
     "inversion": "height above the regional of the tops of all strata",
@@ -29,7 +29,7 @@ def shown_text(name: str, frame: Frame) -> str:
     for layer in frame.layers:
         if name == f"layer-{layer.name}":
             return layer.label
-    return SHOWN.get(name, name).format(window=window_text(frame))
+    return SHOWN.get(name, name).format(window=window_text(frame), remark=strain_remark(frame))
 
 
 def caption(names: Sequence[str], said: Sequence[str | None] | None, frame: Frame, order: Order) -> str:

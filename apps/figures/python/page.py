@@ -4,7 +4,7 @@ import textwrap
 from collections.abc import Sequence
 from decimal import Decimal
 
-from frame import Frame
+from frame import Frame, printable
 from plot import FAINT, Figure, length_unit
 
 DPI = 150
@@ -102,6 +102,12 @@ def window_text(frame: Frame) -> str:
     if way - until <= WINDOW_END * window:
         return f"last {window:g} m of {of}"
     return f"{(until - window) / 1000:g} to {until / 1000:g} km of {of}"
+
+
+def strain_remark(frame: Frame) -> str:
+    """Words for the strain that is left out, since rock gets lower where nothing shears, or for that it is in, after a
+    blank; empty where there is none."""
+    return printable(str(frame.meta.get("strain_remark", "")))
 
 
 LONGEST_TITLE = 80        # letters

@@ -10,7 +10,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, exagger
                   swatch)
 from discs import draw_discs
 from frame import Frame, Layer
-from page import PANEL_WIDTH, PROFILE_HEIGHT, time_texts, window_text
+from page import PANEL_WIDTH, PROFILE_HEIGHT, strain_remark, time_texts, window_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -246,7 +246,7 @@ def strain_panel(ax, cax, frame: Frame) -> None:
                 zorder=6)
         handles.append((stroke(TOP_GREEN, 1.0), "pre-rift top"))
     handles += draw_faults(ax, frame)
-    describe(ax, frame, f"Shear strain, {window_text(frame)}", handles)
+    describe(ax, frame, f"Shear strain{strain_remark(frame)}, {window_text(frame)}", handles)
 
 
 def strain_bar(cax, limit: float, highest: float) -> None:

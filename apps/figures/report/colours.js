@@ -27,16 +27,30 @@ function mixed(packed, other, share) {
 /** What discs can be coloured by: streams that it needs, where its scale ends, a label. */
 const modes = {
   strata: {label: "strata", needs: ["stratum", "start_depth_m"]},
-  window: {label: "strain of the window", needs: ["window_strain"], end: "window_strain"},
-  total: {label: "total strain", needs: ["total_strain"], end: "total_strain"},
+  window: {label: "strain of the window", remark: "without", needs: ["window_tectonic_strain"], end: "window_tectonic_strain"},
+  total: {label: "total strain", remark: "without", needs: ["total_tectonic_strain"], end: "total_tectonic_strain"},
   rock: {label: "rock behaviour", needs: ["behaviour"]},
   mean: {label: "mean stress (MPa)", needs: ["mean_stress_pa"], end: "mean_stress_pa", unit: 1e6},
   shear: {label: "shear stress (MPa)", needs: ["shear_stress_pa"], end: "shear_stress_pa", unit: 1e6},
   displacement: {label: "displacement (m)", needs: ["start_x_m", "start_depth_m"], end: "displacement_m"},
+  settled_window: {label: "strain of the window", remark: "with", needs: ["window_strain"], end: "window_strain"},
+  settled_total: {label: "total strain", remark: "with", needs: ["total_strain"], end: "total_strain"},
 };
 
+/** What makes rock of these runs lower where nothing shears, in words. */
+function settlingOf(runs) { return [...new Set(runs.map(run => run.head.settling))].filter(Boolean).join(", "); }
+
+/** Label of a mode; of strain with what it is without, or with. */
+function modeLabel(name, runs) {
+  const {label, remark} = modes[name], settling = settlingOf(runs);
+  return remark && settling ? `${label} ${remark} ${settling}` : label;
+}
+
 /** What all of these runs can be coloured by. */
-function modesOf(runs) { return Object.keys(modes).filter(name => modes[name].needs.every(stream => runs.every(run => run.has(stream)))); }
+function modesOf(runs) {
+  return Object.keys(modes).filter(name => (modes[name].remark !== "with" || settlingOf(runs)) &&
+    modes[name].needs.every(stream => runs.every(run => run.has(stream))));
+}
 
 function displacement(run, k) {
   const x = run.values(k, "x_m"), z = run.values(k, "depth_m");

@@ -40,11 +40,23 @@ function unfolded(bytes, planes) {
 
 const bondStreams = ["bonds_left", "bonds_new", "bonds_to"];
 
+const strainStreams = ["window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain"];
+
+/** Where nothing settles all strain is tectonic: one stream stands for both. */
+function shareStrain({streams, ends}) {
+  for (const span of ["window", "total"]) {
+    if (!(`${span}_strain` in streams)) continue;
+    streams[`${span}_tectonic_strain`] = streams[`${span}_strain`];
+    ends[`${span}_tectonic_strain`] = ends[`${span}_strain`];
+  }
+}
+
 /** A run: head, moments, and of each moment numbers by disc's id. */
 class Run {
   constructor(head) {
     this.head = head;
     this.moments = head.moments;
+    if (!head.settling) this.moments.forEach(shareStrain);
     this.codes = this.moments.map(() => ({}));
     this.lines = [];
     this.numbers = new Map();

@@ -18,7 +18,7 @@ function csvOf(names, rows) {
 
 function discsCsv(run, k) {
   const names = ["x_m", "depth_m", "radius_m", "stratum", "rock", "start_x_m", "start_depth_m",
-    "window_strain", "total_strain", "behaviour", "bonds", "mean_stress_pa", "shear_stress_pa"].filter(name => run.has(name));
+    ...strainStreams, "behaviour", "bonds", "mean_stress_pa", "shear_stress_pa"].filter(name => run.has(name));
   const columns = names.map(name => run.values(k, name)), rows = [];
   run.codes[k].present.forEach((there, id) => {
     if (there) rows.push([id, depthReference, ...columns.map(column => column[id])]);

@@ -92,7 +92,7 @@ function youngestTime() {
 /** Whether a disc that is shown has no strain of the window. */
 function hasUndefined(run) {
   const k = momentOf(run), {present} = run.codes[k];
-  return run.values(k, "window_strain").some((value, id) => present[id] && Number.isNaN(value));
+  return run.values(k, modes[page.mode].needs[0]).some((value, id) => present[id] && Number.isNaN(value));
 }
 
 /** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
@@ -107,9 +107,9 @@ function legendItems() {
     items.push(...new Map(beds.map(bed => [bed.colour + bed.label, bed])).values());
     vocabulary.pre_rift.colours.forEach((colour, n) =>
       items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
-  } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
+  } else items.push({label: modeLabel(page.mode, page.runs), from: 0, to: `${plain(top / (unit || 1))} or more`,
     colours: bar(share => table[Math.round(255 * share)])});
-  if (page.mode === "window" && page.runs.some(hasUndefined)) items.push(vocabulary.scale.undefined);
+  if (["window", "settled_window"].includes(page.mode) && page.runs.some(hasUndefined)) items.push(vocabulary.scale.undefined);
   for (const name of ["faults", "horizons", "picks", "target", "predictions"])
     if (page.shown.has(name) && name in page.layers) items.push({label: page.layers[name].label, colour: page.layers[name].ink});
   for (const [name, layer] of Object.entries(page.layers))
@@ -210,14 +210,16 @@ async function describe() {
     const id = picked.id;
     if (!run.codes[k].present[id])
       return void ($("picked").textContent = `${which}disc ${id}: not in the model at this moment`);
-    await run.load(["start_x_m", "start_depth_m", "window_strain", "total_strain", "bonds", "mean_stress_pa", "shear_stress_pa"]);
+    await run.load(["start_x_m", "start_depth_m", ...strainStreams, "bonds", "mean_stress_pa", "shear_stress_pa"]);
     const value = name => run.has(name) ? run.values(k, name)[id] : NaN;
     const say = (text, name, unit = 1, suffix = "") => !run.has(name) ? "" :
       `; ${text} ${Number.isNaN(value(name)) ? "not defined" : plain(value(name) / unit) + suffix}`;
     $("picked").textContent = `${which}disc ${id}: stratum ${run.codes[k].stratum[id]}, ` +
       `began at x ${metresText(value("start_x_m"))}, depth ${metresText(value("start_depth_m"))}; is at x ` +
       `${metresText(value("x_m"))}, depth ${metresText(value("depth_m"))}; radius ${value("radius_m").toFixed(1 + metreDecimals())} m` +
-      say("strain of the window", "window_strain") + say("total strain", "total_strain") + say("bonds", "bonds") +
+      (run.head.settling ? say(`strain of the window without ${run.head.settling}`, "window_tectonic_strain") + say("with it", "window_strain") +
+        say(`total strain without ${run.head.settling}`, "total_tectonic_strain") + say("with it", "total_strain")
+        : say("strain of the window", "window_strain") + say("total strain", "total_strain")) + say("bonds", "bonds") +
       say("mean stress", "mean_stress_pa", 1e6, " MPa") + say("shear stress", "shear_stress_pa", 1e6, " MPa");
   } else if (picked.kind === "fault") {
     const lines = await run.loadLines(k), fault = lines.faults[picked.index];
@@ -354,7 +356,7 @@ function readOut(section, column, row) {
     if (page.mode === "rock" && isRead) words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
     else if (mode.end && isRead) {
       const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];
-      words.push(`${mode.label.replace(/ \(.*/, "")} ${Number.isNaN(value) ? "not defined" : digits(value / (mode.unit || 1), 2) +
+      words.push(`${modeLabel(page.mode, page.runs).replace(/ \(.*/, "")} ${Number.isNaN(value) ? "not defined" : digits(value / (mode.unit || 1), 2) +
         (mode.unit ? " MPa" : page.mode === "displacement" ? " m" : "")}`);
     }
   }
@@ -442,7 +444,7 @@ function addLayers() {
 
 function addControls() {
   const [run] = page.runs;
-  addOptions($("colour"), modesOf(page.runs).map(name => [name, modes[name].label]), page.mode);
+  addOptions($("colour"), modesOf(page.runs).map(name => [name, modeLabel(name, page.runs)]), page.mode);
   addOptions($("palette"), [["figures", "as in the figures"], ...Object.keys(palettes).map(name => [name, name])], page.palette);
   $("height").value = page.view.height;
   const measures = Object.keys(run.history).filter(name => name !== clockOf(run) && run.history[name].some(Number.isFinite));

@@ -149,48 +149,126 @@ function drawExpansion(host, run, fault, cutoffs, strata) {
   for (const p of points) axes.point(p.index, p.stratum, p.error, cssColour(stratumColour(p.stratum, strata, table)), "");
 }
 
-/** Thickness of every stratum in columns of the section, m, and when it was laid down, as of moment k. */
+const fewestDiscs = 3; // of a cell that is told apart from those around it
+
+/** Discs and thickness of every stratum in columns of the section, m, and when it was laid down, as of moment k. */
 function thicknessOf(run, k, width) {
   const solid = 0.83, {present, stratum} = run.codes[k], x = run.values(k, "x_m"), radius = run.values(k, "radius_m");
   const start = run.values(k, "start_travel_m"), columns = Math.ceil((run.head.length_m + run.moments[k].extension_m) / width);
   const strata = [];
   for (let i = 0; i < present.length; ++i) {
     if (!present[i] || stratum[i] < 1) continue;
-    const one = strata[stratum[i]] ??= {thickness: new Float64Array(columns), travel: start[i]};
+    const one = strata[stratum[i]] ??= {discs: new Uint16Array(columns), thickness: new Float64Array(columns), travel: start[i]};
     const column = Math.min(Math.max(Math.floor(x[i] / width), 0), columns - 1);
+    one.discs[column] += 1;
     one.thickness[column] += Math.PI * radius[i] ** 2 / solid / width;
   }
   return strata;
 }
 
-/** Time over the section: what was laid down where, and how thick it is now; white: nothing, or it is gone. */
+/** Stretches of a column's strata that are empty between ones that are not: [first, last], old to young, ends included. */
+function emptyStretches(discs) {
+  const found = [];
+  discs.forEach((count, row) => {
+    if (count) return;
+    if (found.length && found.at(-1)[1] === row - 1) found.at(-1)[1] = row;
+    else found.push([row, row]);
+  });
+  return found;
+}
+
+/** Discs per stratum beside an empty stretch: of the nearest few on either side, the slower side. */
+function rateBeside(discs, [first, last]) {
+  const sides = [[first - 1, -1], [last + 1, 1]].map(([row, step]) => {
+    let [count, rows] = [0, 0];
+    for (; row >= 0 && row < discs.length && count < fewestDiscs && (discs[row] || count); row += step) [count, rows] = [count + discs[row], rows + 1];
+    return count ? count / rows : Infinity;
+  });
+  return Math.min(...sides);
+}
+
+/** Cells of a column, from the discs of its strata, old to young: {first, last, discs}; rows in no cell are blank.
+ *
+ * Strata are merged until they hold three discs. An empty stretch is a hiatus where three discs or more are missing from
+ * it at the rate beside it; a shorter one is what a disc is too large for, and not resolved, as is what has fewer. */
+function wheelerCells(discs) {
+  const rows = discs.length, isBlank = new Array(rows).fill(false);
+  for (const [first, last] of emptyStretches(discs))
+    if ((last - first + 1) * rateBeside(discs, [first, last]) >= fewestDiscs) isBlank.fill(true, first, last + 1);
+  const cells = [];
+  for (let first = 0; first < rows; ++first) {
+    if (isBlank[first]) continue;
+    let [end, inStretch] = [first, []];
+    for (; end < rows && !isBlank[end]; ++end) {
+      const open = inStretch.at(-1);
+      if (open && open.discs < fewestDiscs) [open.last, open.discs] = [end, open.discs + discs[end]];
+      else inStretch.push({first: end, last: end, discs: discs[end]});
+    }
+    const [rest] = inStretch.slice(-1);
+    if (rest.discs < fewestDiscs && inStretch.length > 1) {
+      inStretch.pop();
+      Object.assign(inStretch.at(-1), {last: rest.last, discs: inStretch.at(-1).discs + rest.discs});
+    }
+    cells.push(...inStretch);
+    first = end;
+  }
+  return cells;
+}
+
+/** All cells of a moment: column, strata from and to, when, thickness now, and how fast it came, m per unit of time. */
+function wheelerChart(run, k, width) {
+  const strata = thicknessOf(run, k, width), numbers = Object.keys(strata).map(Number);
+  const ages = numbers.map(n => timeOf(run, strata[n].travel));
+  const steps = ages.slice(1).map((age, n) => age - ages[n]).sort((a, b) => a - b);
+  const step = steps.length ? steps[steps.length >> 1] : ages[0] || 1, cells = [];
+  for (let column = 0; numbers.length && column < strata[numbers[0]].discs.length; ++column)
+    for (const {first, last, discs} of wheelerCells(numbers.map(n => strata[n].discs[column]))) {
+      const thickness = numbers.slice(first, last + 1).reduce((sum, n) => sum + strata[n].thickness[column], 0);
+      const from = Math.max(ages[first] - step, 0);
+      cells.push({column, discs, thickness, from, to: ages[last], first: numbers[first], last: numbers[last],
+        rate: discs < fewestDiscs ? null : thickness / (ages[last] - from)});
+    }
+  return {cells, from: numbers.length ? Math.max(ages[0] - step, 0) : 0, to: ages.at(-1), isEmpty: numbers.length === 0};
+}
+
+/** "12 m", of a cell where the pointer is. */
+function wheelerWords(run, cell) {
+  if (!cell) return "nothing was laid down, or it is gone";
+  const names = cell.first === cell.last ? stratumName(cell.first) : `strata ${cell.first} to ${cell.last}`;
+  const count = `${cell.discs} disc${cell.discs === 1 ? "" : "s"}`;
+  return cell.rate === null ? `${names}: not resolved (${count})` : `${names}: ${valueText(cell.thickness, "m", run.head.mean_radius_m)}, ${count}`;
+}
+
+/** Time over the section: what was laid down where, and how fast, by its thickness now. */
 function drawWheeler(host, run, k) {
-  const width = 4 * run.head.mean_radius_m, strata = thicknessOf(run, k, width), numbers = Object.keys(strata).map(Number);
-  const tell = text => { $("wheeler_says").textContent = text; };
-  tell("");
-  if (numbers.length === 0) return void (host.textContent = "Nothing: no sediment has been laid down.");
-  const {name, metres} = lengthUnit(), ages = numbers.map(n => timeOf(run, strata[n].travel));
-  const step = numbers.length > 1 ? (ages.at(-1) - ages[0]) / (numbers.at(-1) - numbers[0]) : ages[0] || 1;
-  const all = numbers.flatMap(n => [...strata[n].thickness]).filter(value => value > 0).sort((a, b) => a - b);
-  const top = all[Math.floor(0.99 * (all.length - 1))], table = paletteOf("window", "figures");
-  const end = (run.head.length_m + run.moments[k].extension_m) / metres;
-  const axes = new Axes(host, "time over the section", {label: `x (${name})`, low: 0, high: end},
-    {label: `time (${timeUnit().name})`, low: Math.max(ages[0] - step, 0), high: ages.at(-1)});
+  const width = 4 * run.head.mean_radius_m, {cells, from, to, isEmpty} = wheelerChart(run, k, width);
+  const tell = text => { $("wheeler_says").textContent = text; }, legend = $("wheeler_legend");
+  tell(legend.textContent = "");
+  if (isEmpty) return void (host.textContent = "Nothing: no sediment has been laid down.");
+  const {name, metres} = lengthUnit(), end = (run.head.length_m + run.moments[k].extension_m) / metres;
+  const rates = cells.map(cell => cell.rate).filter(rate => rate !== null).sort((a, b) => a - b);
+  const top = rates[Math.floor(0.99 * (rates.length - 1))] || 1, table = paletteOf("window", "figures"), {unresolved} = vocabulary.strata;
+  const axes = new Axes(host, "time over the section", {label: `x (${name})`, low: 0, high: end}, {label: `time (${timeUnit().name})`, low: from, high: to});
   axes.pen.fillStyle = "#fff"; // paper, in the dark, too: dark is thick
   axes.pen.fillRect(axes.box.left, axes.box.top, axes.box.right - axes.box.left, axes.box.bottom - axes.box.top);
-  const least = 0.1 * width / 2; // of a disc's diameter: less is no layer
-  numbers.forEach((n, row) => strata[n].thickness.forEach((value, column) => {
-    if (value < least) return;
-    const [x0, x1] = [column, column + 1].map(c => axes.toX(Math.min(c * width / metres, end)));
-    const [y1, y0] = [ages[row] - step, ages[row]].map(age => axes.toY(Math.max(age, axes.y.low)));
-    axes.pen.fillStyle = cssColour(table[Math.round(25 + 200 * Math.min(value / top, 1))]);
+  const ink = rate => rate === null ? unresolved.colour : cssColour(table[Math.round(25 + 200 * Math.min(rate / top, 1))]);
+  for (const cell of cells) {
+    const [x0, x1] = [cell.column, cell.column + 1].map(c => axes.toX(Math.min(c * width / metres, end)));
+    const [y1, y0] = [cell.from, cell.to].map(axes.toY, axes);
+    axes.pen.fillStyle = ink(cell.rate);
     axes.pen.fillRect(x0, y0, x1 - x0 + 0.5, y1 - y0 + 0.5);
-  }));
-  tell(`Light: thin; dark: ${valueText(top, "m", run.head.mean_radius_m)} or more, as thick as it is now. Blank: nothing was laid down, or it is gone.`);
+  }
+  for (const [colour, text] of [[ink(0), "slow"], [ink(top), `${digits(top, 2)} m per ${timeUnit().name} or more, as thick as it is now`],
+    [unresolved.colour, unresolved.label], ["#fff", "nothing was laid down, or it is gone"]]) {
+    const entry = legend.appendChild(document.createElement("span"));
+    entry.className = "entry";
+    addSwatch(entry, colour);
+    entry.append(text);
+  }
   axes.canvas.addEventListener("pointermove", event => {
-    const x = axes.xAt(event.offsetX), time = axes.yAt(event.offsetY), row = ages.findIndex(age => age >= time);
-    const value = row < 0 ? undefined : strata[numbers[row]].thickness[Math.floor(metres * x / width)];
-    if (x >= 0 && x <= end && value !== undefined)
-      tell(`x ${x.toFixed(1)} ${name}, ${time.toFixed(3)} ${timeUnit().name}, ${stratumName(numbers[row])}: ${value < least ? "nothing" : valueText(value, "m", run.head.mean_radius_m)}`);
+    const x = axes.xAt(event.offsetX), time = axes.yAt(event.offsetY), column = Math.floor(metres * x / width);
+    if (x >= 0 && x <= end && time >= from && time <= to)
+      tell(`x ${x.toFixed(1)} ${name}, ${time.toFixed(3)} ${timeUnit().name}, ` +
+        wheelerWords(run, cells.find(cell => cell.column === column && cell.from <= time && time <= cell.to)));
   });
 }

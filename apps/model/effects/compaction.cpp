@@ -28,6 +28,7 @@ const Effect& effect() {
                 scene.find<P>()->coefficient = rock.pores->coefficient;
         }),
         .needs = {"sedimentation"},
+        .settling = "compaction",
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 parts.sediment->porosity_decay = scene.find<P>()->coefficient;

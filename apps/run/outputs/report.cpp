@@ -104,7 +104,8 @@ private:
                                         .mean_radius = mean_radius_,
                                         .history = to_csv(run.record.history),
                                         .summary = run.summary,
-                                        .base_moves = run.parts.base_moves}},
+                                        .base_moves = run.parts.base_moves,
+                                        .rocks = run.rocks}},
                               .live = live};
         const std::string html = report_html(page);
         if (live || static_cast<double>(html.size()) <= 1e6 * ReportRequest{}.most_mb)

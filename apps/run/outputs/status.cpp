@@ -1,4 +1,5 @@
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/rock_record.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/scene/stage.hpp"
@@ -24,6 +25,8 @@ void tell(const RunView& run) {
         status["stage"] = run.simulation.base().motion.stage(run.travel());
     }
     status["of_m"] = run.target().m;
+    if (run.rocks)
+        status["rocks"] = archive::rocks_json(*run.rocks);
     status["seconds_left"] = std::int64_t{std::llround(left)};
     write_object(run.options.output / "status.json", status);
 }

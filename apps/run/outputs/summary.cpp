@@ -2,6 +2,7 @@
 
 #include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
+#include "apps/archive/rock_record.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
@@ -47,6 +48,7 @@ void write_summary(RunView& run) {
          .observed = run.observed,
          .wall_seconds = run.wall_seconds(),
          .state_hash = run.simulation.hash(),
+         .rocks = run.rocks ? archive::rocks_json(*run.rocks) : nlohmann::ordered_json(),
          .provenance = archive::provenance(run.scene, run.record),
          .known_errors = archive::known_errors_json(run.scene, run.state().clock.extension.m)});
     write_text(run.options.output / "summary.json", run.summary);
