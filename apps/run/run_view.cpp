@@ -35,7 +35,10 @@ int RunView::ranks() const { return options.on_ranks ? options.on_ranks->ranks()
 
 MomentNames RunView::names() const {
     MomentNames names(scene.output.interval, window_ends(record.history));
-    names.name_after(target().m, simulation.tolerance().m);
+    const double tolerance = simulation.tolerance().m;
+    names.name_after(target().m, tolerance);
+    if (!kept.empty()) // a resumed run was asked for another end before
+        names.name_after(snapshot_extension(kept), tolerance);
     return names;
 }
 

@@ -65,7 +65,10 @@ bool MomentNames::is_window_end(double extension) const {
 double MomentNames::asked_for(double extension) const {
     if (is_window_end(extension))
         return interval_ * std::round(extension / interval_);
-    return std::abs(extension - asked_) <= tolerance_ ? asked_ : extension;
+    for (const double asked : asked_)
+        if (std::abs(extension - asked) <= tolerance_)
+            return asked;
+    return extension;
 }
 
 std::string MomentNames::metres(double moment) const {

@@ -23,7 +23,7 @@ public:
     /// Names a moment after the one that was asked for, m, if a cycle has missed that by so much at
     /// most. The ends of windows are named after the multiples of the interval anyway.
     void name_after(double asked, double tolerance) {
-        asked_ = asked;
+        asked_.push_back(asked);
         tolerance_ = tolerance;
     }
 
@@ -42,7 +42,8 @@ public:
 private:
     double asked_for(double extension) const;
 
-    double interval_ = 100.0, asked_ = 0.0, tolerance_ = 0.0;
+    double interval_ = 100.0, tolerance_ = 0.0;
+    std::vector<double> asked_;
     std::vector<double> ends_;
 };
 
