@@ -154,10 +154,11 @@ std::string warning(const Scene& scene) {
                                        scene.extension.rate)));
     return fmt::format(
         "fault_weakening.interval_a = {}: at {} the wall moves by {:.3g} m between scans, in which "
-        "a fault must slip by {:.3g} m: few faults are found, or none; from {:.3g} a on the wall "
+        "a fault must slip by {:.3g} m: few faults are found, or none; from {:.0f} a on the wall "
         "moves by {:g} times that slip{}",
-        text(p.interval), slowest.words, way, slip, std::ceil(least_ways * slip / slowest.rate),
-        least_ways, default_helps);
+        text(p.interval), slowest.words, way, slip,
+        std::ceil(dem::without_round_off(least_ways * slip / slowest.rate)), least_ways,
+        default_helps);
 }
 
 /// Definition of a fault, in metres and as a rate.
