@@ -258,7 +258,7 @@ function drawWheeler(host, run, k) {
     axes.pen.fillStyle = ink(cell.rate);
     axes.pen.fillRect(x0, y0, x1 - x0 + 0.5, y1 - y0 + 0.5);
   }
-  for (const [colour, text] of [[ink(0), "slow"], [ink(top), `${digits(top, 2)} m per ${timeUnit().name} or more, as thick as it is now`],
+  for (const [colour, text] of [[ink(0), "slow"], [ink(top), `${Number(top.toPrecision(2))} m per ${timeUnit().name} or more, as thick as it is now`],
     [unresolved.colour, unresolved.label], ["#fff", "nothing was laid down, or it is gone"]]) {
     const entry = legend.appendChild(document.createElement("span"));
     entry.className = "entry";
