@@ -294,9 +294,11 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
         section.ground.push_back(rays.ground(section.x(k)));
     const double last = saturated_rock(options.law, 0.0).velocity;
     const std::vector<double> zero = zero_times(section, boundaries, last);
-    section.first_sample = options.in_depth
-                               ? 0.0 - section.top
-                               : 0.0 - 1e-3 * std::ceil(1e3 * *std::ranges::max_element(zero));
+    double rise = 0.0; // of the topmost rock above the original surface, s
+    for (std::size_t k = 0; k < section.traces; ++k)
+        rise =
+            std::max(rise, zero[k] - time_at(boundaries[k], section.top - section.ground[k], last));
+    section.first_sample = 0.0 - (options.in_depth ? section.top : 1e-3 * std::ceil(1e3 * rise));
     double end = 0.0;
     for (std::size_t k = 0; k < section.traces; ++k)
         if (const auto& ray = boundaries[k]; !ray.empty())
