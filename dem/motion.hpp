@@ -14,11 +14,11 @@ enum class SurfaceWork { both, fill, erode, none };
 
 /// Part of a run in which base and right wall move steadily, or rest.
 struct MotionStage {
-    Travel start, end;
-    Extension start_position; ///< of the wall
-    double slope = 1.0;       ///< of the wall's position over travel; 0: it rests, < 0: it returns
-    double speed = 0.0;       ///< of travel, m/s; that of the wall is slope * speed
-    bool base_moves = true;   ///< the detachment's conveyor goes with the wall
+    Travel start = {}, end = {};
+    Extension start_position = {}; ///< of the wall
+    double slope = 1.0;     ///< of the wall's position over travel; 0: it rests, < 0: it returns
+    double speed = 0.0;     ///< of travel, m/s; that of the wall is slope * speed
+    bool base_moves = true; ///< the detachment's conveyor goes with the wall
     std::optional<double> detachment_friction = {}; ///< in place of the surface's
     std::optional<double> sediment_friction = {};   ///< of sediment discs, in place of their own
     SurfaceWork surface = SurfaceWork::both;

@@ -4,7 +4,7 @@
 #include "apps/archive/summary.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
-#include "apps/model/effects/pause_record.hpp"
+#include "apps/model/effects/stage_pauses.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/stage.hpp"
 

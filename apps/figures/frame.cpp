@@ -17,11 +17,11 @@
 #include "apps/support/npy.hpp"
 #include "apps/support/option_names.hpp"
 #include "apps/support/picture.hpp"
+#include "dem/base/just_before.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/just_before.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

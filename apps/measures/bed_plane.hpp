@@ -26,7 +26,8 @@ struct MarkMoments {
     void add_spread(const MarkMoments& other);
 };
 
-/// Height above a horizon (or only its sign) as a plane over the section; the horizon is where it is 0.
+/// Height above a horizon (or only its sign) as a plane over the section; the horizon is where it
+/// is 0.
 class BedPlane {
 public:
     /// Through the middle of marks, with the slope that `spread`, of these or more, asks for. None

@@ -1,7 +1,7 @@
 #include "apps/measures/dilation.hpp"
 
+#include "dem/base/just_before.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/just_before.hpp"
 
 namespace listric::measures {
 

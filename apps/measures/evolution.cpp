@@ -10,7 +10,7 @@
 #include "apps/measures/relief.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/syncline.hpp"
-#include "dem/just_before.hpp"
+#include "dem/base/just_before.hpp"
 
 namespace listric::measures {
 

@@ -13,10 +13,10 @@ namespace listric::measures {
 
 /// Where a horizon, straight on from both sides, meets a fault.
 struct Cutoffs {
-    dem::Point hanging, footwall; ///< above the fault and below it, m
-    double error = 0.0;           ///< of the throw, m
-    bool is_resolved = false;     ///< it is known well enough for a throw
-    bool is_of_growth = false;    ///< younger than the fault, or the surface that it broke first
+    dem::Point hanging = {}, footwall = {}; ///< above the fault and below it, m
+    double error = 0.0;                     ///< of the throw, m
+    bool is_resolved = false;               ///< it is known well enough for a throw
+    bool is_of_growth = false; ///< younger than the fault, or the surface that it broke first
 
     /// Height of the footwall's cutoff over that of the hanging wall, m; > 0: normal.
     double height() const { return footwall.y - hanging.y; }

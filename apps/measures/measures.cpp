@@ -5,10 +5,10 @@
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/localisation.hpp"
 #include "apps/measures/profile.hpp"
+#include "dem/base/just_before.hpp"
 #include "dem/base/place.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/just_before.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -91,8 +91,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
         const double age = old_sediment_age + travel_of_cycle(setting.motion, state.clock).m;
         m.old_sediment_bonded_fraction =
             bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);
-        m.old_sediment_bonded_profile =
-            bonded_profile_of_old_sediment(state, surface, age);
+        m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, surface, age);
     }
     m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
 }

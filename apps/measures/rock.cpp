@@ -3,9 +3,9 @@
 #include "apps/measures/polyline.hpp"
 #include "apps/measures/rock_layers.hpp"
 #include "dem/base/ground_level.hpp"
+#include "dem/base/just_before.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/just_before.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -36,11 +36,11 @@ struct Setting {
     double output_interval = 0.0; ///< travel between states that are kept, m
     dem::Motion motion = {};      ///< of the wall
     /// Sediment younger than this is too loose for a fault: it creeps all over.
-    dem::Travel youngest_sediment;
+    dem::Travel youngest_sediment = {};
     /// Diameter of the circle that fault detection (AFD) measures with, mean disc diameters; none:
     /// faults are not looked for and do not weaken.
-    std::optional<double> detection_circle;
-    std::optional<Sediment> sediment; ///< none: nothing is deposited
+    std::optional<double> detection_circle = {};
+    std::optional<Sediment> sediment = {}; ///< none: nothing is deposited
     /// Tops and bottoms of layers of rock before extension, from the highest down.
     std::vector<LayerBoundary> boundaries = {};
 

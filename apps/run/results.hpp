@@ -15,7 +15,7 @@ struct Results {
     const measures::FaultReport& faults;
     std::optional<double> basin_depth = {}; ///< deepest pre-rift top, smoothed over 1 km, m
     std::optional<double> volume_error_fraction = {}; ///< of weakened discs
-    dem::Extension extension, half_a_cycle;
+    dem::Extension extension = {}, half_a_cycle = {};
     bool has_stages = false; ///< so that the extension may have been greater
     bool base_moves = false; ///< its motion takes part in the balance of areas
 };

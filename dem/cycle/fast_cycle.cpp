@@ -1,11 +1,11 @@
 #include "dem/cycle/fast_cycle.hpp"
 
 #include "dem/base/contact.hpp"
+#include "dem/base/rest.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
-#include "dem/rest.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/threads/team.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "dem/base/contact.hpp"
 #include "dem/base/place.hpp"
+#include "dem/base/rest.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/plain_account.hpp"
 #include "dem/cycle/plain_pair.hpp"
@@ -10,7 +11,6 @@
 #include "dem/order_free.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
-#include "dem/rest.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "dem/events/fault_weakening.hpp"
 
+#include "dem/base/rest.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
@@ -7,7 +8,6 @@
 #include "dem/events/measure_circle.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/rest.hpp"
 #include "dem/round_off.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"

@@ -1,7 +1,7 @@
 #include "dem/events/property_update.hpp"
 
+#include "dem/base/rest.hpp"
 #include "dem/contacts/soft_discs.hpp"
-#include "dem/rest.hpp"
 
 namespace listric::dem {
 

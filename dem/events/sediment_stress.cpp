@@ -1,9 +1,9 @@
 #include "dem/events/sediment_stress.hpp"
 
+#include "dem/base/rest.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/damping.hpp"
 #include "dem/pushes.hpp"
-#include "dem/rest.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

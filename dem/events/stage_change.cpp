@@ -1,6 +1,6 @@
 #include "dem/events/stage_change.hpp"
 
-#include "dem/rest.hpp"
+#include "dem/base/rest.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -78,7 +78,7 @@ TEST_F(RateRun, ARunThatAnOlderVersionBeganAtALowRateIsSampledOn) {
     archive::hand_over(snapshot, events, path);
     for (const auto& event : events)
         if (event->name() == "equilibrium") {
-            EXPECT_EQ(event->next_due(), 325.0);
+            EXPECT_EQ(event->next_due().m, 325.0);
         }
 }
 

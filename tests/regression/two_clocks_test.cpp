@@ -59,8 +59,8 @@ Numbers numbers_of(const Told& run, Setting setting, RigidBase base, const Measu
         add("born", f.born_at.m);
         add("traced", f.traced_since.m);
         add("foot at birth", f.foot_at_birth.x);
-        for (const auto& [stratum, value] : f.throws)
-            add(fmt::format("throw of stratum {}", stratum).c_str(), value);
+        for (const auto& [horizon, at] : f.cutoffs)
+            add(fmt::format("throw of horizon {}", horizon).c_str(), at.height());
     }
     std::erase_if(numbers, [](const auto& one) { return one.first.ends_with("rate_mm_per_a"); });
     return numbers;

@@ -53,7 +53,7 @@ static_assert(takes_only<decltype(&Setting::is_window), Travel, Setting, Travel>
 static_assert(takes_only<decltype(&Simulation::end_at), Extension, Simulation&>);
 static_assert(
     takes_only<decltype(&FaultTraceOptions::least_strain_in), Extension, FaultTraceOptions>);
-static_assert(takes_only<decltype(&fault_cutoffs), Travel, const State&, const Polyline&>);
+static_assert(std::same_as<decltype(ThrownFault::born_at), Travel>);
 static_assert(takes_only<decltype(&RunSoFar::has_come_to), Extension, const RunSoFar&, Extension>);
 static_assert(!std::is_invocable_v<decltype(&Simulation::extend_to), Simulation&, Extension,
                                    const Execution&, const Simulation::Report&>);

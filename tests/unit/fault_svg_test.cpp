@@ -108,8 +108,9 @@ TEST_F(Drawing, LinesOfEveryKindAreFound) {
 TEST_F(Drawing, NamesOfDrawingProgramsAreFound) {
     source.svg_path = "Main fault";
     const auto layer = [](const char* attributes, const char* first = "") {
-        return fmt::format("<g id=\"horizons\"><path d=\"M0,0H9\"/></g><g {}>{}<path d=\"{}\"/></g>",
-                           attributes, first, d);
+        return fmt::format(
+            "<g id=\"horizons\"><path d=\"M0,0H9\"/></g><g {}>{}<path d=\"{}\"/></g>", attributes,
+            first, d);
     };
     expect_placed(layer("id=\"Main_fault\" data-name=\"Main fault\"")); // Illustrator
     expect_placed(layer("id=\"Main_x20_fault\""));

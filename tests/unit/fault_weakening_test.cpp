@@ -340,11 +340,12 @@ TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
 /// The slip of a scan at the start of a pause is from before it: the discs are weakened when the
 /// wall moves on, as many as a scan in motion weakens at once.
 TEST(FaultWeakening, WaitsForTheEndOfAPause) {
-    const RigidBase base{
-        .motion = {.speed = 1.0,
-                   .stages = {{.end = 500.0, .speed = 1.0},
-                              {.start = 500.0, .end = 1500.0, .slope = 0.0, .speed = 1.0},
-                              {.start = 1500.0, .end = 3000.0, .speed = 1.0}}}};
+    RigidBase base;
+    base.motion = {
+        .speed = 1.0,
+        .stages = {{.end = Travel(500.0), .speed = 1.0},
+                   {.start = Travel(500.0), .end = Travel(1500.0), .slope = 0.0, .speed = 1.0},
+                   {.start = Travel(1500.0), .end = Travel(3000.0), .speed = 1.0}}};
     Block moves, rests;
     for (Block* block : {&moves, &rests})
         block->slide(60.0 * degree, 1.3 * block->threshold);
@@ -352,12 +353,12 @@ TEST(FaultWeakening, WaitsForTheEndOfAPause) {
     ASSERT_GT(moves.weak_discs(), 0);
     for (const double travel : {499.999, 1000.0}) { // half a cycle early, and amid the pause
         rests.state.clock.time_step = 0.01;
-        rests.state.clock.travel = travel;
+        rests.state.clock.travel = Travel(travel);
         rests.event.apply(rests.state, base);
         EXPECT_EQ(rests.weak_discs(), 0) << travel;
         EXPECT_FALSE(rests.found("x_m").empty());
     }
-    rests.state.clock.travel = 1499.999;
+    rests.state.clock.travel = Travel(1499.999);
     rests.event.apply(rests.state, base);
     EXPECT_TRUE(
         std::ranges::equal(disc_columns(rests.state).material, disc_columns(moves.state).material));

@@ -124,8 +124,8 @@ TEST(PropertyUpdate, WhatAllHaveLostIsTakenBackByAll) {
 
 TEST(PropertyUpdate, InAPauseRadiiFollowTheLoadAlone) {
     Lattice l(0.9 * cell); // it has won volume
-    const RigidBase base{
-        .motion = {.speed = 1.0, .stages = {{.end = 100.0, .slope = 0.0, .speed = 1.0}}}};
+    RigidBase base;
+    base.motion = {.speed = 1.0, .stages = {{.end = Travel(100.0), .slope = 0.0, .speed = 1.0}}};
     const double target = r * enlargement(l.stress(), l.state.materials[weak]);
     for (int k = 0; k < 10; ++k)
         EXPECT_TRUE(l.event.apply(l.state, base));

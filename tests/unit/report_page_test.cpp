@@ -27,12 +27,11 @@ TEST(ReportPage, NamesRocksAsTheyWereRecordedAndGuessesNone) {
     Scene scene; // the numbers of mat18-b
     const ReportMoments moments;
     const auto rock = [&](std::optional<RockOrigins> origins) {
-        const std::string html =
-            report_html({.runs = {{.scene = scene,
-                                   .moments = moments,
-                                   .mean_radius = 75.0,
-                                   .history = "extension_m\n0\n",
-                                   .rocks = std::move(origins)}}});
+        const std::string html = report_html({.runs = {{.scene = scene,
+                                                        .moments = moments,
+                                                        .mean_radius = 75.0,
+                                                        .history = "extension_m\n0\n",
+                                                        .rocks = std::move(origins)}}});
         const std::size_t at = html.find("\"rock\":\"");
         return html.substr(at + 8, html.find('"', at + 8) - at - 8);
     };

@@ -22,7 +22,7 @@ State level_ground(double travel) {
     for (int k = 0; k < 40; ++k)
         discs.push_back({100.0 * k, -radius, radius});
     State state = make_state(discs);
-    state.clock.travel = travel;
+    state.clock.travel = Travel(travel);
     return state;
 }
 
@@ -61,8 +61,8 @@ TEST(WetGround, HasWhatTheStageDoes) {
     motion.speed = 1.0;
     const auto stage = [](double start, double end, SurfaceWork work) {
         MotionStage one;
-        one.start = start;
-        one.end = end;
+        one.start = Travel(start);
+        one.end = Travel(end);
         one.surface = work;
         return one;
     };

@@ -2,8 +2,8 @@
 // number of threads. Exact comparisons, over contacts that form, slip and break, over neighbour
 // searches, and with a base that moves.
 
+#include "dem/base/rest.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/rest.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -151,11 +151,12 @@ TEST(FastCycle, HasTheSameBitsWhereTheWallRests) {
         constexpr double speed = 1.5, begins = 10.5; // m: they stop after some hundred cycles
         heap.base.motion = {
             .speed = speed,
-            .stages = {{.end = begins, .speed = speed},
-                       {.start = begins, .end = 1e3, .slope = 0.0, .speed = speed}}};
+            .stages = {
+                {.end = Travel(begins), .speed = speed},
+                {.start = Travel(begins), .end = Travel(1e3), .slope = 0.0, .speed = speed}}};
         State plain = heap.state;
         advance(plain, heap.base, against_mean, 500, {1, Cycle::plain});
-        ASSERT_FALSE(stops(heap.base.motion, 0.0));
+        ASSERT_FALSE(stops(heap.base.motion, {}));
         ASSERT_TRUE(stops(heap.base.motion, plain.clock.travel));
         for (const Cycle cycle : cycles()) {
             State fast = heap.state;

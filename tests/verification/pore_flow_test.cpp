@@ -263,11 +263,11 @@ template <class Age> State lattice_of_age(Age&& age) {
     for (int k = 0; k < 36; ++k)
         discs.push_back({100.0 * (0.5 + k % 6), 100.0 * (0.5 + k / 6), 50.0});
     State state = make_state(discs);
-    state.clock.travel = 1000.0; // none of them is yet to come
+    state.clock.travel = Travel(1000.0); // none of them is yet to come
     const DiscColumns d = disc_columns(state);
     std::ranges::fill(d.stratum, 1);
     for (std::size_t i = 0; i < discs.size(); ++i)
-        d.start_extension[i] = age(d.x[i], d.y[i]);
+        d.start_travel[i] = age(d.x[i], d.y[i]);
     return state;
 }
 

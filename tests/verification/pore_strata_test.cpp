@@ -224,7 +224,7 @@ public:
             if (solved_ > 0 && solved_ % every_ == 0)
                 lay_down();
             ++solved_;
-            state_.clock.travel = travel * interval * solved_;
+            state_.clock.travel = Travel(travel * interval * solved_);
             place();
             event_.apply(state_, base_);
             ++event_.applied;
@@ -307,7 +307,7 @@ private:
             d.x[i] = (static_cast<double>(c) + 0.5) * width_;
             d.mass[i] = 2600.0 * (1.0 - fresh) * room * width_;
             d.stratum[i] = solved_ / every_;
-            d.start_extension[i] = state_.clock.travel;
+            d.start_travel[i] = state_.clock.travel.m;
             d.material[i] = dem::sediment;
         }
     }

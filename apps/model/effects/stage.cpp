@@ -1,10 +1,10 @@
 #include "apps/scene/stages.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/pause_record.hpp"
 #include "apps/model/effects/stage_measures.hpp"
+#include "apps/model/effects/stage_pauses.hpp"
+#include "dem/base/just_before.hpp"
 #include "dem/events/stage_change.hpp"
-#include "dem/just_before.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/model/effects/stage_measures.hpp"
 
-#include "dem/just_before.hpp"
+#include "dem/base/just_before.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Strain and displacement of rock since a pause began, and those of the newest once it is over.
 // Made motions, exact up to round-off.
 
-#include "apps/model/effects/pause_record.hpp"
+#include "apps/model/effects/stage_pauses.hpp"
 #include "dem/events/strain.hpp"
 #include "tests/support.hpp"
 
@@ -93,8 +93,9 @@ TEST(PauseRecord, EveryPauseBeginsAnew) {
         EXPECT_EQ(b.record.next_due().m, travel);
         b.apply(b.record);
         b.shear(0.3);
-        if (travel == 200.0)
+        if (travel == 200.0) {
             EXPECT_NEAR(b.record.unrest(b.state)->strain, 0.3, 1e-12);
+        }
     }
     EXPECT_EQ(b.record.next_due().m, 400.0);
     EXPECT_EQ(b.record.strain_before(), 0.0);

@@ -1,8 +1,8 @@
-#include "apps/model/effects/pause_record.hpp"
+#include "apps/model/effects/stage_pauses.hpp"
 
+#include "dem/base/rest.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/rest.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -87,7 +87,7 @@ void PauseRecord::begin(State& state) {
 }
 
 bool PauseRecord::apply(State& state, const RigidBase&) {
-    if (applied % 2 != 0) { // the pause ends
+    if (applied % 2 != 0) {     // the pause ends
         if (memory.rows() == 0) // an earlier version began it, which remembered nothing
             return false;
         const Unrest all = unrest_now(state);
