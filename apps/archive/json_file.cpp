@@ -68,7 +68,7 @@ std::optional<double> number_at(const JsonObject& object, const char* key) {
 
 std::optional<std::string> whole_number_at(const JsonObject& object, const char* key) {
     const JsonObject* const found = member(object, key);
-    return found && found->is_number_integer() ? std::optional(found->dump()) : std::nullopt;
+    return found && found->is_number_integer() ? std::optional(to_text(*found)) : std::nullopt;
 }
 
 std::vector<std::string> texts_at(const JsonObject& object, const char* key) {

@@ -186,8 +186,8 @@ void require_same_request(const fs::path& output, const JsonObject& asked) {
         if (asked.contains(key) && asked[key] != value)
             throw UsageError(fmt::format("{}: holds the results of another call: {} = {} there, {} "
                                          "here; --output writes elsewhere",
-                                         output.string(), shown(key), shown_start(value.dump()),
-                                         shown_start(asked[key].dump())));
+                                         output.string(), shown(key), shown_start(to_text(value)),
+                                         shown_start(to_text(asked[key]))));
 }
 
 } // namespace

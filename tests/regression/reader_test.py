@@ -317,7 +317,7 @@ class Reader(unittest.TestCase):
         listric.call("export", "well", folder)
         self.assertEqual(names(), before)
         # An earlier version wrote other places under this name, and told no depth reference.
-        [old] = (folder / "export").glob("burial-extension-*m.csv")
+        old = folder / "export" / f"burial-{listric.Run(folder).snapshots[-1].path.stem}.csv"
         text = (folder / "export" / f"{old.stem}-x-1000m.csv").read_text()
         old.write_text(text.replace("depth_reference,", "").replace("original surface,", ""))
         self.assertEqual(names(), before)
@@ -352,10 +352,10 @@ class Reader(unittest.TestCase):
         listric.call("export", "horizons", folder)
         file = sorted((folder / "export").glob("*.csv"))[-1]
         head = file.read_text().splitlines()[0]
-        file.write_text(f'{head}\n0,"salt, ""upper""\nand lower",1,,,5,6\n')
+        file.write_text(f'{head}\n0,"salt, ""upper""\nand lower",1,,,original surface,5,6\n')
         self.assertEqual([line["name"] for line in listric.Run(folder).horizons], ['salt, "upper"\nand lower'])
         for lacks in ("line", "x_m"):
-            file.write_text(f"{head.replace(lacks, 'other')}\n0,salt,1,,,5,6\n")
+            file.write_text(f"{head.replace(lacks, 'other')}\n0,salt,1,,,original surface,5,6\n")
             with self.fails(listric.RunError, file, f"has no column {lacks}"):
                 listric.Run(folder).horizons
 

@@ -102,6 +102,7 @@ class SharedDisks(unittest.TestCase):
 
     def test_work_of_another_version_is_warned_of_and_recorded(self):
         import h5py
+        import numpy
         run = self.copy("other")
         newest = sorted((run / "snapshots").iterdir())[-1]
         end = newest.read_bytes()[-24:]
@@ -109,7 +110,7 @@ class SharedDisks(unittest.TestCase):
         newest.write_bytes(newest.read_bytes()[:-24])
         with h5py.File(newest, "r+") as file:
             del file.attrs["version"]
-            file.attrs["version"] = b"0.1.0+deadbeef"
+            file.attrs["version"] = numpy.bytes_("0.1.0+deadbeef")  # of fixed length, as the program writes it
         self.mend_checksum(newest)
         said = self.run_to("30m", "other", "--resume")
         self.assertIn("warning: listric 0.1.0+deadbeef has made this run so far", said)

@@ -115,7 +115,8 @@ TEST(RunRecords, ShippedOnesAreOfShippedScenes) {
     for (const auto& [name, description] : list_scenes())
         shipped.push_back(name);
     for (const RecordedRun& run : all) {
-        EXPECT_THAT(shipped, testing::Contains(run.scene));
+        const std::string scene = run.scene.substr(0, run.scene.find(" without "));
+        EXPECT_THAT(shipped, testing::Contains(scene));
         EXPECT_FALSE(run.measures.empty());
     }
 }

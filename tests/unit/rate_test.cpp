@@ -184,11 +184,14 @@ TEST(Rate, AStatedIntervalThatIsTooShortIsTold) {
 TEST(Rate, TheSlowestStageIsToldOf) {
     const std::string stages = "stage=[{distance_m=2000.0}, {pause_a=1e5}, "
                                "{distance_m=2000.0, rate_m_per_a=0.001}]";
-    EXPECT_THAT(warnings({stages}),
+    const std::string distance = "extension.distance_m=23000"; // the stages' ways
+    EXPECT_THAT(warnings({stages, distance}),
                 ElementsAre(AllOf(few_faults, HasSubstr("0.001 m/a of stage[2]"),
                                   HasSubstr("248000 a"), Not(HasSubstr("left out")))));
-    EXPECT_THAT(warnings({stages, "fault_weakening.interval_a=250000"}), IsEmpty());
-    EXPECT_THAT(warnings({"stage=[{distance_m=2000.0}, {pause_a=1e5}]"}), IsEmpty());
+    EXPECT_THAT(warnings({stages, distance, "fault_weakening.interval_a=250000"}), IsEmpty());
+    EXPECT_THAT(
+        warnings({"stage=[{distance_m=2000.0}, {pause_a=1e5}]", "extension.distance_m=3000"}),
+        IsEmpty());
 }
 
 TEST_F(RateFiles, APlanOfASweepTellsOfItsPoints) {

@@ -227,12 +227,12 @@ TEST_F(SweepPlanFile, AMeasureThatNoRunCanHaveIsRefused) {
 TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
     const SweepPlan plan = load(plan_text);
     const auto points = sweep_points(plan);
-    std::vector<SweepRow> rows{{1, 6, "finished", 0, "abc", "0.2.0+1", {0.1, std::nullopt}, ""},
+    std::vector<SweepRow> rows{{1, 6, "finished", 0, "abc", "1.0.0+1", {0.1, std::nullopt}, ""},
                                {4, 7, "a, \"b\"", 3, "", "", {std::nullopt, std::nullopt}, ""}};
     const std::string text = to_csv(plan, points, rows);
     EXPECT_EQ(text, "run,seed,fault_weakening.friction,materials.basement,outcome,exit_code,"
                     "state_hash,made_by,strain_top10,strain_top10@50\n"
-                    "1,6,0,mat18-b,finished,0,abc,0.2.0+1,0.1,\n"
+                    "1,6,0,mat18-b,finished,0,abc,1.0.0+1,0.1,\n"
                     "4,7,0.2,mat18-b-calibrated,a; 'b',3,,,,\n");
     std::ofstream(file) << text;
     EXPECT_EQ(to_csv(plan, points, read_sweep(plan, points, file)), text);
