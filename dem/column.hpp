@@ -23,8 +23,8 @@ struct Column {
     Values values;
     Value initial;              ///< value of a new row
     std::string begins_as = {}; ///< name of the column whose value a new row takes, if not that
-    /// An observer wrote it for people: the hash of a state leaves it out, so that what is noted besides
-    /// changes no recorded hash. It is saved, sorted and resumed as all others.
+    /// An observer wrote it for people: the hash of a state leaves it out, so that what is noted
+    /// besides changes no recorded hash. It is saved, sorted and resumed as all others.
     bool is_note = false;
 };
 

@@ -55,7 +55,8 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
     const Setting setting = make_setting(drilled.scene, drilled.parts);
     WellLines well{place, rock_of_well(setting, drilled.state, grain_density, place.x), {}};
     for (const auto& [number, stratum] : well.rock)
-        well.lines[number].values = {place.name, static_cast<double>(number),
+        well.lines[number].values = {place.name,
+                                     static_cast<double>(number),
                                      stratum.deposited_at.m / setting.extension_rate,
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
                                      setting.sediment->surface_porosity,
@@ -95,13 +96,12 @@ std::vector<WellPlace> well_places(const Observation& now, const std::vector<dou
 
 LineTable burial_table(const RunFolder& run, const std::filesystem::path& drilled,
                        const std::vector<double>& wells) {
-    LineTable table{
-        "burial",
-        "stratum",
-        {"name", "stratum", "deposited_at_a", "deposited_thickness_m", "deposited_porosity",
-         "discs"},
-        {"base_depth_m", "ground_depth_m", "thickness_m", "porosity", "extension_m", "time_a",
-         "age_a"}};
+    LineTable table{"burial",
+                    "stratum",
+                    {"name", "stratum", "deposited_at_a", "deposited_thickness_m",
+                     "deposited_porosity", "discs"},
+                    {"base_depth_m", "ground_depth_m", "thickness_m", "porosity", "extension_m",
+                     "time_a", "age_a"}};
     if (!run.parts.sediment)
         return table;
     const double grain_density = run.parts.sediment->grain_density;
