@@ -190,7 +190,7 @@ TEST_F(SweepTest, AFailedRunIsARow) {
     EXPECT_THAT(table("some"), HasSubstr("\n2,1,8,"));
     EXPECT_THAT(contents(folder / "some/runs/0002-seed=1/status.json"),
                 HasSubstr(R"("phase": "failed")"));
-    EXPECT_THAT(table("some"), HasSubstr(",3,,\n"));
+    EXPECT_THAT(table("some"), HasSubstr(",3,,,\n"));
     const std::string before = table("some");
     EXPECT_EQ(sweep("some").code, 0);
     EXPECT_EQ(table("some"), before);
