@@ -214,7 +214,7 @@ void expect_faults(const json& features, const json& faults) {
         for (const auto& [stratum, value] : faults[k]["throw_error_m"].items())
             expected["throw_" + stratum + "_error_m"] = value;
         for (const char* key : {"throw_m", "throw_error_m", "points_m", "x_top_m", "z_top_m",
-                                "x_bottom_m", "z_bottom_m"})
+                                "x_bottom_m", "z_bottom_m", "born_travel_m"})
             expected.erase(key);
         for (const auto& [key, value] : expected.items())
             EXPECT_EQ(features[k]["properties"].at(key), value) << key;

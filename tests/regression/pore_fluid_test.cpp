@@ -225,7 +225,7 @@ std::map<std::string, std::vector<double>> columns_of(const fs::path& file) {
     while (std::getline(lines, line)) {
         std::istringstream words(line);
         for (const std::string& name : names)
-            if (std::getline(words, word, ',') && name != "name")
+            if (std::getline(words, word, ',') && name != "name" && name != "depth_reference")
                 columns[name].push_back(std::stod(word));
     }
     return columns;

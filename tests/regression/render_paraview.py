@@ -45,7 +45,7 @@ CELL_ARRAYS = {
     "contacts": {"bonded": 1, "normal_force_n": 1, "shear_force_n": 1},
     "base": {"surface": 1},
 }
-OPTIONAL = {"window_strain", "total_strain", "porosity"}  # there if the effect is on
+OPTIONAL = {"window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain", "porosity"}  # there if the effect is on
 PICTURE_WIDTH = 1400  # pixels
 
 
