@@ -651,7 +651,7 @@ class Drawing(Folder):
         figure = sections.draw_figure(frame, ["behaviour"], 20)
         labels = [text.get_text() for legend in figure.legends + [ax.get_legend() for ax in figure.axes] if legend
                   for text in legend.get_texts()]
-        self.assertIn("weakened, no fault traced", labels)
+        self.assertIn("weakened elsewhere", labels)
         self.assertNotIn("unconsolidated sediment", labels)   # there is none
 
     def test_the_footer_says_what_was_computed(self):
