@@ -115,14 +115,14 @@ RunMoments some_moments(const fs::path& output) {
     return moments;
 }
 
-} // namespace
-
 /// An older version applied some events more often where the motion is slow.
 void count_as_spaced_now(Event& event, Travel now) {
     const Travel spacing(event.schedule().spacing());
     if (std::isfinite(spacing.m) && event.next_due() > now + 2.0 * spacing)
         event.applied = static_cast<std::int64_t>(now / spacing);
 }
+
+} // namespace
 
 void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events,
                const fs::path& path) {

@@ -125,7 +125,6 @@ NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
     return numbers;
 }
 
-/// @param settled  age from which on sediment counts, m of travel
 NamedNumbers measure_porosity(const State& state, const Sediment& sediment, double settled) {
     const ConstDiscColumns d = disc_columns(state);
     const GroundLevel ground(state, settled);

@@ -35,9 +35,10 @@ std::optional<double> weak_off_faults(const dem::State& state, std::span<const F
 NamedNumbers measure_layering(const dem::State& state, const dem::TargetLine& surface);
 
 /// Porosity of sediment, from mass and radius of its discs, beside that expected in its depth below
-/// the surface: porosity_error, porosity_off_fraction. Without the discs of the last 100 m of
-/// extension: a layer is buried under itself when it is laid down, and still compacts.
-NamedNumbers measure_porosity(const dem::State& state, const Sediment& sediment);
+/// the surface: porosity_error, porosity_off_fraction.
+/// @param settled  age from which on sediment counts, m of travel: a layer is buried under itself
+///                 when it is laid down, and still compacts
+NamedNumbers measure_porosity(const dem::State& state, const Sediment& sediment, double settled);
 
 /// All of these that have a meaning in the setting.
 NamedNumbers measure_rock(const Setting& setting, const dem::State& state);
