@@ -90,8 +90,7 @@ constexpr FaultField fields[] = {
      [](P p) -> Json { return p.fault().born_at.m; }, 9, "born at", true, true},
     {"born_travel_m", "m",
      "travel at which that was, the run's clock: with stages that pause or shorten an extension "
-     "may "
-     "be that of several moments",
+     "may be that of several moments",
      [](P p) -> Json { return p.fault().born_travel.m; }, 0, "", true, true},
     {field_dip_at_birth, "deg",
      "dip of the fault when it formed: dip of the line traced at its place in the window of its "

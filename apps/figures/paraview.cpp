@@ -73,8 +73,7 @@ public:
     std::string text() const {
         return fmt::format(
             "<?xml version=\"1.0\"?>\n<!-- x: m from the breakaway; y: m above the original "
-            "surface "
-            "(y = 0) -->\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+            "surface (y = 0) -->\n<VTKFile type=\"PolyData\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
             "compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n{}"
             "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
