@@ -5,15 +5,14 @@ include(CMakePackageConfigHelpers)
 install(TARGETS listric RUNTIME COMPONENT program)
 set(share ${CMAKE_INSTALL_DATADIR}/listric)
 install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT program)
-install(FILES apps/scene.schema.json apps/material.schema.json apps/sweep.schema.json
-  apps/validation.schema.json apps/flexure.schema.json DESTINATION ${share}
-  COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
-install(DIRECTORY docs/record/runs/ DESTINATION ${share}/record COMPONENT program
-  FILES_MATCHING PATTERN *.csv)
+install(DIRECTORY apps/records DESTINATION ${share} COMPONENT program FILES_MATCHING PATTERN *.csv)
+# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
+set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
 # Made by the program from its own options: here, since what is built may be for another machine.
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
+set(declarations ${PROJECT_BINARY_DIR}/declarations)
 set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")
 install(CODE "
   foreach(shell bash zsh fish)
@@ -21,7 +20,12 @@ install(CODE "
       COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
   execute_process(${own} manual OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.1\"
-    COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND \"${CMAKE_COMMAND}\" -D \"program=$<TARGET_FILE:listric>\"
+    -D \"folder=${declarations}\" -P \"${PROJECT_SOURCE_DIR}/apps/declarations.cmake\" COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
+install(DIRECTORY ${declarations}/ DESTINATION ${share} COMPONENT program FILES_MATCHING PATTERN *.schema.json)
+install(FILES ${declarations}/dictionary.json DESTINATION ${LISTRIC_PYTHON_FOLDER}/listric COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/listric.bash RENAME listric COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${PROJECT_BINARY_DIR}/listric.zsh RENAME _listric COMPONENT program
@@ -35,10 +39,8 @@ install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT pro
 install(DIRECTORY apps/figures/report apps/figures/draw DESTINATION ${share}/figures COMPONENT program)
 install(FILES apps/figures/vocabulary.json DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
-# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
-set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
 install(DIRECTORY apps/python/listric DESTINATION ${LISTRIC_PYTHON_FOLDER} COMPONENT program
-  FILES_MATCHING PATTERN *.py PATTERN *.json PATTERN __pycache__ EXCLUDE)
+  FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(TARGET listric_fem)

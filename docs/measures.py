@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the generated parts of docs/measures.md and docs/validation-measures.md from
-apps/python/listric/dictionary.json, which the program prints (docs/parameters.sh). Between
+"""Writes the measures of docs/measures.md from apps/python/listric/dictionary.json, which the build makes. Between
 `<!-- measures: TABLE ... -->` and `<!-- end -->` stand the measures of these tables, each with a heading
-and so an anchor; the rest of a page is by hand.
+and so an anchor; the rest of the page is by hand. Measures of validation have a page on the site alone
+(site_hooks.py).
 """
 
 import json
@@ -11,7 +11,8 @@ import sys
 
 from parameters import ROOT, anchor, sentence
 
-PAGES = (ROOT / "docs/measures.md", ROOT / "docs/validation-measures.md")
+PAGE = ROOT / "docs/measures.md"
+OF_VALIDATION = ("snapshots",)  # tables
 DICTIONARY = ROOT / "apps/python/listric/dictionary.json"
 MARKED = re.compile(r"(<!-- measures: ([^>]*?) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
@@ -36,7 +37,7 @@ def block(entries, tables):
     listed = list(reference(entries, tables))
     parts = [" · ".join(f"[`{name}`](#{anchor(name)})" for name, _ in listed)]
     for name, one in listed:
-        parts += [f"### {name}", sentence(one["doc"]), " · ".join(facts(one))]
+        parts += [f"### {name}", "\n".join(filter(None, (sentence(one["doc"]), " · ".join(facts(one)))))]
     return "\n\n".join(filter(None, parts)) + "\n\n"
 
 
@@ -45,10 +46,16 @@ def page(text, entries):
     return MARKED.sub(lambda m: m[1] + block(entries, m[2].split()) + m[3], text)
 
 
-def missing(texts, entries):
-    """Tables of the dictionary that no page shows."""
-    shown = {name for text in texts for m in MARKED.finditer(text) for name in m[2].split()}
-    return sorted({entry["table"] for entry in entries} - shown)
+def of_validation(entries):
+    """The page of measures that `listric validate` takes from snapshots."""
+    return ("# Measures of validation\n\n[Measures](measures.md#measures-of-validation) says how they are taken.\n\n"
+            + block(entries, OF_VALIDATION))
+
+
+def missing(text, entries):
+    """Tables of the dictionary that the page does not show."""
+    shown = {name for m in MARKED.finditer(text) for name in m[2].split()}
+    return sorted({entry["table"] for entry in entries} - shown - set(OF_VALIDATION))
 
 
 def read_dictionary():
@@ -56,9 +63,7 @@ def read_dictionary():
 
 
 if __name__ == "__main__":
-    words = read_dictionary()
-    documents = [file.read_text(encoding="utf-8") for file in PAGES]
-    if missing(documents, words):
-        sys.exit(f"{PAGES[0]}: has no table {', '.join(missing(documents, words))}")
-    for file, document in zip(PAGES, documents):
-        file.write_text(page(document, words), encoding="utf-8")
+    words, document = read_dictionary(), PAGE.read_text(encoding="utf-8")
+    if missing(document, words):
+        sys.exit(f"{PAGE}: has no table {', '.join(missing(document, words))}")
+    PAGE.write_text(page(document, words), encoding="utf-8")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes docs/parameters.md from the declarations in apps/*.schema.json, which docs/parameters.sh makes. A heading, and so an anchor, for every table and parameter.
+"""Writes docs/parameters.md from the declarations in apps/*.schema.json, which the build makes. A heading, and so an
+anchor, for every table and parameter.
 """
 
 import json
@@ -173,7 +174,7 @@ def page(schema):
         for key, one in keys.items():
             name = f"{table}.{key}".lstrip(".")
             declared = one["x-listric"]
-            lines.append(f"\n### {name}\n\n{sentence(declared['doc'])} {declared['changes']}\n\n"
+            lines.append(f"\n### {name}\n\n{sentence(declared['doc'])} {declared['changes']}\n"
                          f"{' · '.join(facts(name, declared))}\n")
     return "".join(lines)
 

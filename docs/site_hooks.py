@@ -1,9 +1,11 @@
-"""What mkdocs does besides for the site: formulas are set, and links out of docs/ end well.
+"""What mkdocs does besides for the site: pages are made of the program's declarations, formulas are set, and links out
+of docs/ end well.
 
 The pages are written for GitHub, where `$...$` and `$$...$$` are formulas and links lead to any file.
 Formulas are set here, by KaTeX, so that a page needs no script; style and fonts are copied into the
-site. Where the environment's LISTRIC names the program, the site has the page of `listric draw`, and where
-LISTRIC_RUN names a finished run, its report; the home page links to them. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
+site. The program, which LISTRIC names, else the newest of build/, prints help and measures; the rooms are drawn from the
+includes. Where LISTRIC names it, the site has the page of `listric draw`, too, and where LISTRIC_RUN names a finished
+run, its report; the home page links to them. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
 who hear the page.)
 """
 
@@ -12,12 +14,17 @@ import os
 import re
 import shutil
 import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "docs"))
+import measures  # noqa: E402
+
 KATEX_STYLE = Path("/usr/share/javascript/katex/katex.min.css")
 PAGES_OUTSIDE = ("CONTRIBUTING.md", "CHANGELOG.md")
 NOT_SERVED = {".py", ".sh"}
@@ -38,6 +45,9 @@ console.log(JSON.stringify(formulas.map(([tex, displayMode]) =>
 """
 
 DEMOS = "try"  # folder of the site
+CALL = re.compile(r"^  ([a-z]+)  ", re.MULTILINE)  # in the list of all calls
+DRAWING = "architecture.svg"
+MADE = tempfile.TemporaryDirectory(prefix="listric-site-")  # pages of this build
 formulas = []  # (TeX, whether it stands on a line of its own) of all pages
 
 
@@ -57,17 +67,56 @@ def on_post_build(config):
     Path(to, "katex.css").write_text(style)
     for font in set(re.findall(r"url\(([^)]*)\)", style)):
         shutil.copy(KATEX_STYLE.parent / font, to / font)
+    sort_search(Path(config["site_dir"], "search/worker.js"))
     if demos():
         make_demos(config["site_dir"])
+
+
+def sort_search(script):
+    """Guides come before the lab book among what the search finds."""
+    found = "return resultDocuments;"
+    text = script.read_text()
+    if found not in text:
+        raise PluginError(f"{script}: has no {found!r}, where guides are put before the lab book")
+    in_book = "doc => doc.location.startsWith('record/')"
+    script.write_text(text.replace(found, f"const inBook = {in_book};\n  return resultDocuments.sort((a, b) => "
+                                          "inBook(a) - inBook(b));"))
 
 
 def on_files(files, config):
     for file in list(files):
         if Path(file.src_path).suffix in NOT_SERVED:
             files.remove(file)
-    for name in PAGES_OUTSIDE:
-        files.append(File(name, str(ROOT), config.site_dir, config.use_directory_urls))
+    make_pages(Path(MADE.name))
+    for folder, names in ((ROOT, PAGES_OUTSIDE), (MADE.name, sorted(os.listdir(MADE.name)))):
+        for name in names:
+            files.append(File(name, str(folder), config.site_dir, config.use_directory_urls))
     return files
+
+
+def find_program():
+    built = sorted(ROOT.glob("build/*/listric"), key=lambda file: file.stat().st_mtime)
+    program = os.environ.get("LISTRIC") or (built and built[-1])
+    if not program:
+        raise PluginError("help and measures are the program's: build it (./listric scenes), or name it in LISTRIC")
+    return program
+
+
+def make_pages(folder):
+    """Help of all calls, measures of validation and the drawing of the rooms."""
+    program = find_program()
+
+    def ask(*words):
+        return subprocess.run([program, *words], check=True, stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, "COLUMNS": "80", "LISTRIC_CALL": "listric"}).stdout
+
+    overview = ask("help")
+    texts = {"listric": overview, **{call: ask("help", call) for call in CALL.findall(overview.partition("\nOptions\n")[0])}}
+    Path(folder, "calls.md").write_text(
+        "# Help of all calls\n\nThe texts of `listric help CALL`; [commands](commands.md) shows what the calls are for.\n"
+        + "".join(f"\n## {call}\n\n```\n{text}```\n" for call, text in texts.items()))
+    Path(folder, "validation-measures.md").write_text(measures.of_validation(json.loads(ask("schema", "--measures"))))
+    subprocess.run([sys.executable, "-B", ROOT / "tests/checks/architecture.py", Path(folder, DRAWING)], check=True)
 
 
 def demos():
@@ -98,6 +147,8 @@ def with_demos(markdown):
 def on_page_markdown(markdown, page, config, files):
     if page.file.src_path == "index.md":
         markdown = with_demos(markdown)
+    if page.file.src_path == "architecture.md":
+        markdown = markdown.replace("<!-- drawing -->", f"![Rooms and who includes whom]({DRAWING})")
     return FORMULA.sub(mark_formula, relink(markdown, page.file))
 
 

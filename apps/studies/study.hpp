@@ -46,7 +46,7 @@ struct StudyResult {
     std::vector<StudyPoint> points;
     /// By quantity: spread between seeds, below which refinement buys nothing.
     std::map<std::string, double> floors;
-    std::vector<archive::RecordedRun> runs = {}; ///< of shipped scenes, for docs/record/runs
+    std::vector<archive::RecordedRun> runs = {}; ///< of shipped scenes, for apps/records
 };
 
 struct Study {

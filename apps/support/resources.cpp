@@ -33,9 +33,9 @@ fs::path record_folder() {
     if (const char* other = std::getenv("LISTRIC_RECORDS"); other && *other)
         return other;
     std::error_code error;
-    const fs::path beside = resource_folder() / "record";
+    const fs::path beside = resource_folder() / "records";
     return fs::is_directory(beside, error) ? beside
-                                           : fs::path(LISTRIC_SOURCE_DIR) / "docs/record/runs";
+                                           : fs::path(LISTRIC_SOURCE_DIR) / "apps/records";
 }
 
 } // namespace listric

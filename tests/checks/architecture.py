@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Draws the rooms and who includes whom, from the includes, as docs/architecture.svg.
+"""Draws the rooms and who includes whom, from the includes, as build/architecture.svg or the file; docs/site_hooks.py puts it on the site.
 
-    python3 tests/checks/architecture.py      writes the drawing anew
+    python3 tests/checks/architecture.py [FILE]
 
 A room is a floor. Its shaft rises from it through the floors above, and opens (a dot) at each that
 includes it. Where it had to go down, to a floor that includes what lies above it, it is red.
 """
 
+import sys
 from html import escape
+from pathlib import Path
 
 from layering import APPS
 from source_tree import ROOT, includes, is_cpp, is_ours, read_tree, room
 
-DRAWING = ROOT / "docs" / "architecture.svg"
+DRAWING = ROOT / "build" / "architecture.svg"
 
 # From the top floor to the ground.
 FLOORS = {
@@ -68,7 +70,6 @@ def drawing(tree):
     width, height = LEFT + SHAFT * len(FLOORS) + 50, TOP + FLOOR * len(FLOORS) + 80
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
              f'width="{width}" height="{height}" font-family="sans-serif">',
-             "<!-- written by tests/checks/architecture.py -->",
              "<style>.room {font-size: 15px; font-weight: bold} .purpose, .foot {font-size: 12px} "
              "text {fill: #222}</style>",
              f'<rect width="{width}" height="{height}" fill="white"/>']
@@ -86,4 +87,6 @@ def drawing(tree):
 
 
 if __name__ == "__main__":
-    DRAWING.write_text(drawing(read_tree()), encoding="utf-8")
+    drawn = Path(*sys.argv[1:2] or [DRAWING])
+    drawn.parent.mkdir(exist_ok=True)
+    drawn.write_text(drawing(read_tree()), encoding="utf-8")

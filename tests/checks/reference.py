@@ -21,7 +21,7 @@ spec = importlib.util.spec_from_file_location("measure_pages", ROOT / "docs/meas
 measure_pages = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(measure_pages)
 
-PARAMETERS, MEASURES = "docs/parameters.md", ("docs/measures.md", "docs/validation-measures.md")
+PARAMETERS, MEASURES = "docs/parameters.md", "docs/measures.md"
 UNITS = {"_m": "m", "_m2": "m2", "_deg": "deg", "_a": "a", "_s": "s", "_pa": "Pa", "_per_s": "1/s", "_per_km": "1/km",
          "_kg_per_m3": "kg/m3", "_m_per_s": "m/s", "_m_per_a": "m/a", "_n_per_m": "N/m", "_j_per_m": "J/m",
          "_mm_per_a": "mm/a", "_per_m": "1/m", "_pa_s": "Pa s", "_per_pa": "1/Pa", "_m_per_s2": "m/s2", "_diameters": ""}
@@ -83,19 +83,17 @@ def violations(schema, entries, pages):
     if pages[PARAMETERS] != parameter_page.page(schema):
         found.append(f"{PARAMETERS}: is not of the declarations: docs/parameters.sh")
     found += page_objections(PARAMETERS, pages[PARAMETERS], [name for name, _ in parameter_page.reference(schema)])
-    found += [f"{MEASURES[0]}: has no table {table}"
-              for table in measure_pages.missing([pages[page] for page in MEASURES], entries)]
-    for page in MEASURES:
-        if measure_pages.page(pages[page], entries) != pages[page]:
-            found.append(f"{page}: is not of the declarations: docs/parameters.sh")
-        tables = [name for match in measure_pages.MARKED.finditer(pages[page]) for name in match[2].split()]
-        found += page_objections(page, pages[page], [name for name, _ in measure_pages.reference(entries, tables)])
-    return found
+    text = pages[MEASURES]
+    found += [f"{MEASURES}: has no table {table}" for table in measure_pages.missing(text, entries)]
+    if measure_pages.page(text, entries) != text:
+        found.append(f"{MEASURES}: is not of the declarations: docs/parameters.sh")
+    tables = [name for match in measure_pages.MARKED.finditer(text) for name in match[2].split()]
+    return found + page_objections(MEASURES, text, [name for name, _ in measure_pages.reference(entries, tables)])
 
 
 def read_all():
     return (parameter_page.read_schema(), measure_pages.read_dictionary(),
-            {page: (ROOT / page).read_text(encoding="utf-8") for page in (PARAMETERS, *MEASURES)})
+            {page: (ROOT / page).read_text(encoding="utf-8") for page in (PARAMETERS, MEASURES)})
 
 
 if __name__ == "__main__":

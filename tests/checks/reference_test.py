@@ -16,7 +16,7 @@ class PlantedViolations(unittest.TestCase):
         slip = schema["properties"]["fault_weakening"]["properties"]["least_slip_m"]
         slip["x-listric"].update((change or {}).pop("x-listric", {}))
         slip.update(change or {})
-        made = {PARAMETERS: parameter_page.page(schema), MEASURES[1]: "# Validation\n", MEASURES[0]:
+        made = {PARAMETERS: parameter_page.page(schema), MEASURES:
                 measure_pages.page("# Measures\n<!-- measures: structure -->\n<!-- end -->\n", entries)}
         return violations(schema, entries, {**made, **(pages or {})})
 
@@ -42,10 +42,10 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(len(found), 1, found)
         found = self.found(pages={PARAMETERS: parameter_page.page(SCHEMA).replace("### ", "")})
         self.assertIn("0 headings fault_weakening.least_slip_m", found[1])
-        found = self.found(entry={"doc": "another area"}, pages={MEASURES[0]: measure_pages.page(
+        found = self.found(entry={"doc": "another area"}, pages={MEASURES: measure_pages.page(
             "<!-- measures: structure -->\n<!-- end -->\n", ENTRIES)})
         self.assertEqual(len(found), 1, found)
-        self.assertIn("has no table structure", self.found(pages={MEASURES[0]: "# Measures\n"})[0])
+        self.assertIn("has no table structure", self.found(pages={MEASURES: "# Measures\n"})[0])
 
     def test_anchors_of_the_page(self):
         self.assertIn("[`least_slip_m`](#fault_weakeningleast_slip_m)", parameter_page.page(SCHEMA))

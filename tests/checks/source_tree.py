@@ -1,8 +1,8 @@
 """The sources as data: a tree is a dict {path from the root: text}, so that a check is a function of
 it and a test can plant a violation without touching a file.
 
-Also the one home of the include graph, which the layering check judges and docs/architecture.svg
-shows.
+Also the one home of the include graph, which the layering check judges and architecture.py
+draws.
 """
 
 import re

@@ -120,18 +120,5 @@ class Manual(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
-class Page(unittest.TestCase):
-    def test_has_the_help_of_every_call(self):
-        """docs/calls.md, which the launcher prints; docs/parameters.sh writes it again."""
-        environment = {name: value for name, value in os.environ.items() if name != "LISTRIC_CALL"}
-        environment["COLUMNS"] = "80"
-        page = (SOURCES / "docs/calls.md").read_text()
-        sections = re.findall(r"^## (\w+)\n\n```\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
-        overview = output(PROGRAM, "help", env=environment)
-        self.assertEqual(sections[0], ("listric", overview))
-        self.assertEqual(sections[1:], [(call, output(PROGRAM, "help", call, env=environment))
-                                        for call in re.findall(r"^  ([a-z]+)  ", overview, re.MULTILINE)])
-
-
 if __name__ == "__main__":
     unittest.main()

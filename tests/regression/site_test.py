@@ -102,6 +102,25 @@ class Site(unittest.TestCase):
             anchor = found[0]["location"].partition("#")[2]
             self.assertIn(f'id="{anchor}"', self.pages[Path(page, "index.html")])
 
+    def test_has_what_the_program_declares(self):
+        calls = self.pages[Path("calls/index.html")]
+        for call in subprocess.run([PROGRAM, "help"], check=True, stdout=subprocess.PIPE, text=True).stdout.split("\nOptions")[0] \
+                .splitlines():
+            if re.match(r"  [a-z]+  ", call):
+                self.assertIn(f"<code>listric {call.split()[0]}: ", calls)
+        self.assertIn('src="../architecture.svg"', self.pages[Path("architecture/index.html")])
+        self.assertIn("apps/run includes apps/scene", (self.site / "architecture.svg").read_text())
+
+    def test_the_search_finds_guides_before_the_lab_book(self):
+        found = ["record/index.html#a", "choosing/", "record/2026-11/rate/", "report/"]
+        script = (self.site / "search/worker.js").read_text() + f"""
+            documents = {json.dumps({place: {"location": place, "text": ""} for place in found})};
+            index = {{search: () => {json.dumps([{"ref": place} for place in found])}}};
+            allowSearch = true;
+            console.log(search("x").map(doc => doc.location).join());"""
+        self.assertEqual(subprocess.run(["node", "-e", script], check=True, stdout=subprocess.PIPE, text=True).stdout.strip(),
+                         "choosing/,report/,record/index.html#a,record/2026-11/rate/")
+
     def test_asks_no_other_host(self):
         files = [file for file in self.site.rglob("*") if file.suffix in (".html", ".css")]
         self.assertTrue([file for file in files if file.suffix == ".css"])
@@ -146,21 +165,27 @@ class Site(unittest.TestCase):
 
 
 class BrokenSite(unittest.TestCase):
-    def broken(self, page, text):
+    def broken(self, page, text, **environment):
         """What mkdocs says of a copy of the sources with something added to a page."""
+        environment = environment or {"LISTRIC": str(PROGRAM)}
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder, "sources")
             shutil.copytree(SOURCES / "docs", copy / "docs")
             for name in ("mkdocs.yml", "CONTRIBUTING.md", "CHANGELOG.md"):
                 shutil.copy(SOURCES / name, copy / name)
+            for name in ("tests", "apps", "dem", "fem", "coupling"):
+                (copy / name).symlink_to(SOURCES / name)
             with open(copy / "docs" / page, "a") as file:
                 file.write(text)
-            built = build(copy, Path(folder, "site"))
+            built = build(copy, Path(folder, "site"), **environment)
         self.assertNotEqual(built.returncode, 0, built.stdout)
         return built.stdout
 
     def test_a_dead_link(self):
         self.assertIn("no-such-page.md", self.broken("index.md", "\n[x](no-such-page.md)\n"))
+
+    def test_no_program(self):
+        self.assertIn("./listric scenes", self.broken("index.md", "", LISTRIC=""))
 
     def test_a_formula_that_is_none(self):
         self.assertIn("ParseError", self.broken("theory/index.md", "\n$\\frac{1$\n"))

@@ -9,7 +9,10 @@ from pathlib import Path
 def dictionary() -> dict[str, dict]:
     """{name: {"table", "unit", "doc", ...}} of all measures (docs/measures.md); "parts" are what the
     objects of a list have, by their names, too."""
-    entries = json.loads(Path(__file__).with_name("dictionary.json").read_text(encoding="utf-8"))
+    try:
+        entries = json.loads(Path(__file__).with_name("dictionary.json").read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise FileNotFoundError(f"{error.filename}: is made by the build of the program: ./listric scenes") from None
     parts = {part["name"]: part for entry in entries for part in entry.get("parts", ())}
     return parts | {entry["name"]: entry for entry in reversed(entries)}
 
