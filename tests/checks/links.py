@@ -18,7 +18,7 @@ CODE = re.compile(r"^(```|~~~).*?^\1|(`+)(?!`).+?(?<!`)\2(?!`)", re.DOTALL | re.
 FENCE = re.compile(r"^(```|~~~).*?^\1", re.DOTALL | re.MULTILINE)
 HEADING = re.compile(r"^#{1,6} +(.+?) *#*$", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-MENTION = re.compile(r"(?<![\w/.-])docs/[\w/-]+\.md\b")
+MENTION = re.compile(r"(?<![\w/.:-])docs/[\w/-]+\.md\b")
 
 
 def read_documents(root=ROOT):
