@@ -37,7 +37,7 @@ double weight_per_length(const State& state, double from, double to, double grav
 
 double mass(const Ledger& ledger) { return ledger.initial + ledger.deposited - ledger.removed; }
 
-/// Mean loads on the nodes over so many cycles with a base at rest, N.
+/// Mean loads on the nodes over some cycles with a base at rest, N.
 std::vector<double> mean_loads(State& state, const RigidBase& base, const CyclePhysics& physics,
                                int cycles, const Execution& execution) {
     const BaseNodeColumns nodes = base_node_columns(state);

@@ -87,7 +87,7 @@ public:
     /// Means of the window that has begun.
     WindowBalance window(const dem::State& state) const;
 
-    /// Keeps the window's means, if it had a cycle, as those of the last window and begins another.
+    /// Keeps the window's means as the last window's, if it had a cycle, and begins another.
     void end_window(dem::State& state) const;
 
     double seconds = 0.0; ///< wall time spent responding

@@ -26,19 +26,19 @@ double lower_crust_thinning(const LowerCrustThinningParameters& parameters, doub
 
 /// The load of the mantle that has risen, downward at the base: thinning times `contrast`, the
 /// density contrast of mantle and crust times gravity, Pa/m. Its left end stays with the footwall,
-/// its right end goes with the extension, so that its sum, contrast * h * e, is that of the area
-/// that was drawn out.
+/// its right end goes with the extension, so that its sum, contrast * h * e, is the weight of the
+/// area that was drawn out.
 fem::Load lower_crust_load(const LowerCrustThinningParameters& parameters, double contrast,
                            double extension);
 
-/// Loads at extensions from `least` to `greatest`, m, in equal steps, so many that the load's
-/// change with extension, h e / (b + e), is straight between them to 1e-3. Below 0 the crust is
+/// Loads at extensions from `least` to `greatest`, m, in equal steps: small ones, for the load's
+/// change with extension, h e / (b + e), to be straight between them to 1e-3. Below 0 the crust is
 /// thicker.
 std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& parameters,
                                          double contrast, double greatest, double least = 0.0);
 
-/// How much of each of those loads makes that of an extension which is this share of the way from
-/// the least to the greatest: two neighbours interpolated.
+/// Weights of these loads at an extension, which is given as a share of the way from the least to
+/// the greatest: two neighbours interpolated.
 std::vector<double> lower_crust_amounts(double share);
 
 /// Puts the load of the present extension on the footwall, every 25 m of travel. Memory: the

@@ -48,7 +48,7 @@ double length_of(const Chain& chain); ///< m
 
 Point point_at(const Chain& chain, double arc_length);
 
-/// Height of a chain whose x ascends, at x, m; that of its end where x is beyond.
+/// Height of a chain whose x ascends, at x, m; beyond an end, the height of that end.
 double height_at(const Chain& chain, double x);
 
 /// Part of a surface in a base that deforms (State::base_nodes).

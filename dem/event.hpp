@@ -25,7 +25,7 @@ public:
 
     Schedule(double years, double metres_per_year);
 
-    /// Once in so many metres of travel, at any rate.
+    /// Once per this length of travel, at any rate.
     static Schedule every(double metres, double metres_per_year) {
         return {metres / metres_per_year, metres_per_year};
     }
@@ -112,7 +112,7 @@ public:
 /// Events in the order in which they are applied at the same travel.
 using Events = std::vector<std::unique_ptr<Event>>;
 
-/// Puts an event behind those of its stage and of the stages before.
+/// Puts an event behind the events of its stage and of the stages before.
 Event& add(Events& events, std::unique_ptr<Event> event);
 
 /// The first of the events that is an E; null if there is none.

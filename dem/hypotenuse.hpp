@@ -31,7 +31,7 @@ inline double far_hypotenuse(double a, double b) {
     return corrected_root(scale * a, scale * b) / scale;
 }
 
-/// The length of (x, y), for std::hypot, of which processors and C libraries make other bits: where
+/// The length of (x, y). std::hypot gives other bits on other processors and C libraries: where
 /// there is a fused multiply-add, glibc takes another path on ARM, though not on x86. This has the
 /// bits of glibc 2.36 on x86, with which all recorded hashes were made, wherever nothing is
 /// contracted (CMakeLists.txt).

@@ -17,7 +17,7 @@
 namespace listric::dem {
 
 /// A hanging wall on a rigid detachment and its effects, each fact once. An effect is on where it
-/// has parameters; those of sediment and of weakened rock hold their material.
+/// has parameters; the parameters of sediment and of weakened rock hold their material.
 struct Model {
     HangingWallParameters hanging_wall = {};
     DetachmentParameters detachment = {};

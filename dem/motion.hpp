@@ -67,7 +67,7 @@ struct Motion {
     /// Whether the wall returns, or did so before it came to rest.
     bool shortens(Travel travel) const;
 
-    /// Work at the surface between two travels: that of the stage which holds their middle.
+    /// Work at the surface between two travels, by the stage which holds their middle.
     SurfaceWork surface_work(Travel from, Travel to) const;
 
     /// Greatest speed of travel, m/s.

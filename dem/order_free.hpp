@@ -45,8 +45,8 @@ private:
     std::int64_t high_ = 0, middle_ = 0, low_ = 0; ///< in 2^30, 2^-2 and 2^-34
 };
 
-/// Unit in which loads on nodes are counted, N/m: a thousand million millionth of those of a
-/// hanging wall.
+/// Unit in which loads on nodes are counted, N/m: a hanging wall's loads are a thousand million
+/// millions of it.
 inline constexpr double load_unit = 0x1p-10;
 
 /// A load as a number of units. Sums up to 9e15 N/m fit.

@@ -15,7 +15,7 @@ namespace listric::dem {
 
 namespace {
 
-/// Cycles of a batch: what so many cores do in a fraction of a second.
+/// Cycles of a batch: a fraction of a second's work for these threads.
 double greatest_batch(double discs, int threads) {
     return std::max(1.0, std::floor(2e7 * threads / discs));
 }

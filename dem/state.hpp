@@ -113,8 +113,8 @@ using ConstBaseContactColumns = BasicBaseContactColumns<false>;
 using BaseNodeColumns = BasicBaseNodeColumns<true>;
 using ConstBaseNodeColumns = BasicBaseNodeColumns<false>;
 
-// The spans of all of these live as those of their tables: those of discs until add_discs,
-// reorder_discs or sort_discs; those of contacts also until neighbours are searched.
+// The spans of all of these live as long as their tables' spans: of discs until add_discs,
+// reorder_discs or sort_discs; of contacts until neighbours are searched, if that comes first.
 
 /// A state without discs but with all core columns.
 State empty_state();
@@ -134,15 +134,15 @@ void add_base_nodes(State& state, std::span<const double> x, std::span<const dou
 /// Adds `count` discs with fresh ids, everything else at its initial value. Returns the first row.
 std::size_t add_discs(State& state, std::size_t count);
 
-/// Keeps the discs of `order` in that order; contacts follow, those of dropped discs vanish.
+/// Keeps the discs of `order` in that order; contacts follow, a dropped disc's contacts vanish.
 void reorder_discs(State& state, std::span<const std::int32_t> order);
 
 /// Sorts discs into vertical strips, so that discs near each other are near in memory: a strip
 /// runs along the short side of the hanging wall and neighbours are at most two strips away.
 void sort_discs(State& state);
 
-/// Whether ids are unique, contacts in order and of discs that there are, and discs of a size, a
-/// mass and a material. For assertions: it takes as long as a few cycles.
+/// Checks: ids are unique, contacts are sorted and their discs exist, discs have a size, a mass
+/// and a material. For assertions: it takes as long as a few cycles.
 bool is_valid(const State& state);
 
 /// Hash of every name, type and value of a table.

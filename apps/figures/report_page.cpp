@@ -195,8 +195,9 @@ std::vector<std::string> lacks_of(const ReportPage& page) {
 std::string report_html(const ReportPage& page) {
     const fs::path folder = resource_folder() / "figures/report";
     std::string scripts;
-    for (const char* name : {"data.js", "colours.js", "painter.js", "section.js", "charts.js",
-                             "strata.js", "tables.js", "files.js", "words.js", "page.js"})
+    for (const char* name :
+         {"data.js", "colours.js", "painter.js", "section.js", "charts.js", "strata.js",
+          "tables.js", "files.js", "words.js", "address.js", "page.js"})
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},

@@ -24,7 +24,7 @@ using WellRock = std::map<int, WellStratum>;
 double half_well(const dem::State& state);
 
 /// Sediment within half_well() of x, m. A stratum's deposited thickness is the grains of all its
-/// discs that entered the model within half_well() of the mean place where those of the well did,
+/// discs that entered the model within half_well() of the mean place where the well's discs did,
 /// over the width and 1 - porosity as deposited. Eroded discs are not among them.
 /// @param grain_density  kg/m3
 WellRock rock_of_well(const Setting& setting, const dem::State& state, double grain_density,

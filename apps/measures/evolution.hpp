@@ -24,7 +24,7 @@ NamedNumbers measure_evolution(const Setting& setting, const dem::RigidBase& bas
                                const Measures& measures, std::span<const FaultSegment> segments,
                                std::span<const Past> past);
 
-/// All that they can be, but those of the fault report.
+/// All quantities that can occur, but those in the fault report.
 std::vector<Quantity> evolution_quantities();
 
 } // namespace listric::measures

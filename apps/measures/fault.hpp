@@ -29,7 +29,7 @@ struct Fault {
     double footwall_turn = 0.0;  ///< rotation of the footwall block since birth, degrees, > 0
                                  ///< counter-clockwise: toward the detachment
     dem::Point foot;             ///< lower end, extended to the detachment if that is close, m
-    /// By horizon; those of growth are told only of a fault that has been followed to its birth.
+    /// By horizon; growth strata have them only where the fault has been followed to its birth.
     std::map<int, Cutoffs> cutoffs;
 };
 

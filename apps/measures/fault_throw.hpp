@@ -18,7 +18,7 @@ struct Cutoffs {
     bool is_resolved = false;               ///< it is known well enough for a throw
     bool is_of_growth = false; ///< younger than the fault, or the surface that it broke first
 
-    /// Height of the footwall's cutoff over that of the hanging wall, m; > 0: normal.
+    /// Height of the footwall's cutoff over the hanging wall's cutoff, m; > 0: normal.
     double height() const { return footwall.y - hanging.y; }
 };
 

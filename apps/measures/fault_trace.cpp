@@ -55,7 +55,7 @@ std::vector<Box> boxes_of(const std::vector<FaultTrace>& traces) {
     return boxes;
 }
 
-/// Strain within 2.5 diameters of a trace over that of its surroundings out to 10 diameters, other
+/// Strain within 2.5 diameters of a trace over the strain around it out to 10 diameters, other
 /// traces left out; the mean of both sides. Where a side is missing, as near the surface, there is
 /// nothing that the trace stands out from.
 /// @param boxes  around all

@@ -7,7 +7,7 @@
 
 namespace listric::measures {
 
-/// How far into the hanging wall the last window's deformation is, beside that of early windows.
+/// How far the deformation lies in the hanging wall in the last window, beside early windows.
 NamedNumbers measure_hinge(const RunSoFar& run);
 
 std::span<const Quantity> hinge_quantities();

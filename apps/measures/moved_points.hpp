@@ -26,7 +26,7 @@ std::string objection_to(const MovedPoints& points);
 /// Their strain, with that spacing for a diameter; its window is one strain_window.
 ShearField shear_field(const MovedPoints& points);
 
-/// A fault of which no more is known than how the points beside it have moved.
+/// A fault that is known only by the motion of the points beside it.
 struct TracedFault {
     FaultTrace trace;
     double dip = 0.0;        ///< of the best straight line, degrees
@@ -37,7 +37,7 @@ struct TracedFault {
 };
 
 /// The faults, the longest first; none among points that lie on each other or on a line. The least
-/// strains of the options are those of the whole displacement.
+/// strains of the options are strains of the whole displacement.
 std::vector<TracedFault> trace_faults(const MovedPoints& points,
                                       const FaultTraceOptions& options = {});
 

@@ -25,7 +25,7 @@ constexpr Quantity persistence{
     "later, over the fifth of the discs that is strained most in both together: mean over all such "
     "pairs of windows so far. Zero or less for bands of the day"};
 
-/// Strain of the basement's discs by id; NaN for those of sediment.
+/// Strain of the basement's discs by id; NaN for sediment discs.
 std::vector<double> strain_by_id(const RunSoFar& run, const ShearField& field) {
     std::vector<double> strain(run.places.row_of.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < field.id.size(); ++k)

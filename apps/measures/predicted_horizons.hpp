@@ -23,8 +23,8 @@ struct PorosityByDepth {
 Polyline predicted_horizon(const dem::Chain& detachment, double extension, double since,
                            double angle, double right, const PorosityByDepth& porosity);
 
-/// Depths of a line, whose x need not ascend, at ascending x: linear between its points, those of
-/// its ends beyond; m.
+/// Depths of a line, whose x need not ascend, at ascending x: linear between its points, level
+/// beyond its ends; m.
 std::vector<double> depths_at(const Polyline& line, std::span<const double> x);
 
 } // namespace listric::measures

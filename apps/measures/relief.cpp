@@ -53,7 +53,7 @@ std::optional<Columns> find_columns(const Profile& profile) {
                    column(std::ranges::max(grabens, {}, &Depocentre::prominence).x)};
 }
 
-/// Tops of a stratum and all below it by column, from those of the strata below it.
+/// Tops of a stratum and all below it by column, from the tops of the strata below it.
 void raise(std::vector<double>& top, const State& state, int stratum) {
     const ConstDiscColumns d = disc_columns(state);
     const double width = 2.0 * state.mean_radius;

@@ -46,7 +46,7 @@ struct RunSoFar {
     /// Places at the end of that window.
     const DiscPlaces& end_of_window(std::size_t k) const;
 
-    /// Whether one extension is another or above it: both are those of moments, to half a cycle.
+    /// Whether one extension is another or above it: both belong to moments, to half a cycle.
     bool has_come_to(dem::Extension at, dem::Extension asked) const {
         return dem::has_come_to(at, asked, cycle);
     }

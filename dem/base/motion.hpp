@@ -31,7 +31,7 @@ private:
     double rate_;
 };
 
-/// Greatest speed of a node over that of extension: a stage's change of displacement over the
+/// Greatest speed of a node over the extension's speed: a stage's change of displacement over the
 /// extension during it.
 double greatest_base_speed(const BaseMotionParameters& parameters, double rate);
 

@@ -30,8 +30,8 @@ bool is_near_end(const Surface& surface, const BasePlace& place, Point p, double
 /// The base as it stands, with chains of lines for what is deformed: for measuring and drawing.
 RigidBase standing_base(const RigidBase& base, const State& state);
 
-/// Height of the nodes as they have moved, at x, m: straight between them, that of the first and
-/// the last beyond. At least two nodes, x ascending.
+/// Height of the nodes as they have moved, at x, m: straight between them, level beyond the
+/// first and the last. At least two nodes, x ascending.
 double height_at(const ConstBaseNodeColumns& nodes, double x);
 
 /// Greatest displacement of a node, m.

@@ -51,8 +51,8 @@ inline std::int64_t next_check_interval(std::int64_t last, double speed, double 
     return interval;
 }
 
-/// Whether lists are to be updated at a measured displacement. The limit is below that of a
-/// measurement, or measurements would become frequent.
+/// Whether lists are to be updated at a measured displacement. The limit is below the limit
+/// at which displacements are measured, or measurements would become frequent.
 inline bool is_update_due(double displacement, double skin) {
     return !(displacement <= 0.4 * skin);
 }

@@ -48,7 +48,7 @@ void unpack_part(State& part, const Packed& packed);
 
 class FastCycle {
 public:
-    /// For so many threads at most.
+    /// @param threads  upper limit
     FastCycle(int threads, Cycle level) : threads_(threads), level_(level) {}
 
     /// Whether what is packed, if anything is, is of that base.

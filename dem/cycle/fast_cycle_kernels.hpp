@@ -9,7 +9,7 @@
 
 namespace listric::dem::fast {
 
-/// Velocity against which that of a disc is damped; with or without a sample for the mean.
+/// Velocity against which a disc's velocity is damped; with or without a sample for the mean.
 enum class DampedAgainst { rest, mean_motion, mean_motion_sampled, stretching };
 
 /// Data that all strips share.

@@ -19,7 +19,7 @@ using namespace fast;
 
 namespace {
 
-/// Rows of a table sorted by disc that come before those of a disc.
+/// Number of rows before the first row of a disc, in a table sorted by disc.
 std::size_t rows_before(std::span<const std::int32_t> sorted, std::size_t disc) {
     return static_cast<std::size_t>(
         std::ranges::lower_bound(sorted, static_cast<std::int32_t>(disc)) - sorted.begin());
@@ -133,8 +133,8 @@ void FastCycle::divide_work(const State& state, const Halo* halo) {
     }
 }
 
-/// Three strips, of which the first and the last have all discs that are sent, and all ghosts: what
-/// is before the middle of the rows, and what is behind it.
+/// Cuts three strips; the first and the last hold all discs that are sent and all ghosts, on either
+/// side of the middle row.
 void FastCycle::cut_off_borders(const Halo& halo) {
     const std::size_t middle = disc_count_ / 2 / tile_discs * tile_discs;
     std::size_t low = 0, high = disc_count_;

@@ -23,7 +23,7 @@ public:
     /// Enters what base contact k loses, and the work of the prescribed motion of base and walls.
     void enter_base_contact(std::size_t k, const BaseContactDisc& disc, const ContactParameters& p,
                             double shear_before, const BaseContactForce& force);
-    /// Enters those of a contact with a surface that deforms.
+    /// Enters what a contact with a surface that deforms loses.
     void enter_node_contact(std::size_t k, const BaseContactDisc& disc, const ContactParameters& p,
                             double shear_before, const NodeContactForce& on_nodes);
 

@@ -30,7 +30,7 @@ public:
 
     /// Ends a cycle: brings those discs of the state up to date that others move. Returns the
     /// largest component of a disc's velocity then, m/s.
-    /// @param fastest  that of the discs as the cycle has moved them
+    /// @param fastest  largest component among the discs that the cycle has moved
     virtual double after_cycle(State&, double fastest) { return fastest; }
 
     /// For who does that elsewhere than in the state. Null: there are no others.

@@ -33,7 +33,7 @@ struct EnergyBalance {
 
 /// Keeps the account of energy. It is never due: the simulation books cycles and events into it as
 /// they happen. The work of an event (radii, stiffnesses, masses and bonds that change, discs that
-/// come and go) is the change of kinetic and strain energy over it; that of compaction is done in
+/// come and go) is the change of kinetic and strain energy over it; compaction does work in
 /// the cycles, too.
 ///
 /// Its memory has one row: initial, stored, potential, boundary_work, gravity_work, friction,

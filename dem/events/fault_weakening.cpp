@@ -180,7 +180,7 @@ std::vector<std::int32_t> sound_discs(const Displacements& s, const State& state
 }
 
 /// Weak discs of the sample that have rested for long enough by now, and counts the years of rest.
-/// Strain is that of the discs within half a measure circle since the last scan.
+/// Strain: of the discs within half a measure circle, since the last scan.
 std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, const Cells& cells,
                                        double reach, const FaultWeakeningParameters& p,
                                        double resting_strain) {

@@ -77,7 +77,7 @@ std::vector<double> shear_without(const State& state, std::span<const double> ve
     return strain;
 }
 
-/// Fills a column of the last window and adds to that of all of them.
+/// Fills the column of the last window and adds to the column of all windows.
 void book(State& state, const std::vector<double>& strain, std::string_view window,
           std::string_view total) {
     std::ranges::copy(strain, state.discs.get<double>(window).begin());

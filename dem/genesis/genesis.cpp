@@ -201,7 +201,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
 }
 
 /// Density of the lightest discs there will be, kg/m^3.
-/// @param density  of those of the hanging wall's rock
+/// @param density  of the discs of the hanging wall's rock, kg/m^3
 double lightest_density(const GenesisRequest& request, double density) {
     double lightest = std::min(density, request.sediment_density.value_or(density));
     for (const RockLayer& layer : request.layers)

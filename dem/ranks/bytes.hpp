@@ -15,7 +15,7 @@ namespace listric::dem {
 /// Puts plain values one after the other.
 class BytesOut {
 public:
-    /// Takes memory for so many bytes at once.
+    /// Takes memory for this number of bytes at once.
     void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
     template <class T> void add(const T& value) {

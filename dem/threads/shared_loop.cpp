@@ -20,7 +20,7 @@ using Work = std::function<void(std::size_t)>;
 /// Threads that wait for loops to help with.
 class Team::Helpers {
 public:
-    /// Starts what is missing of so many.
+    /// Starts threads until there are `count`.
     void start(std::size_t count) {
         try {
             while (can_start_ && threads_.size() < count)

@@ -13,10 +13,10 @@ namespace listric::dem {
 
 // Loops that threads share. Whoever is free takes the next piece, and nobody waits for a thread
 // that has not begun: one that does not get a core takes less. Pieces do not depend on each other,
-// and what they give is put together in their order: the bits are those of one loop.
+// and their results are put together in order: one thread's loop gives equal bits.
 
-/// While it lives, so many threads share the loops of the calling thread, instead of one; or fewer
-/// where there is no memory for more. A thread is started when a loop has a piece for it.
+/// While it lives, its threads share the loops of the calling thread; fewer of them where there is
+/// no memory for more. A thread is started when a loop has a piece for it.
 class Team {
 public:
     /// Throws std::invalid_argument for less than one thread.
@@ -41,7 +41,7 @@ private:
 /// Threads that share a loop of the calling thread.
 int team_size();
 
-/// Number of those that could be started for a loop of so many pieces: no more than these.
+/// Number of threads that could be started for a loop of these pieces: at most one per piece.
 int threads_at_hand(std::size_t pieces);
 
 /// Calls work(k) for k = 0 .. count - 1. Loops within it are not shared again. After a failure no

@@ -88,7 +88,7 @@ def violations(schema, entries, pages):
     if measure_pages.page(text, entries) != text:
         found.append(f"{MEASURES}: is not of the declarations: docs/parameters.sh")
     tables = [name for match in measure_pages.MARKED.finditer(text) for name in match[2].split()]
-    return found + page_objections(MEASURES, text, [name for name, _ in measure_pages.reference(entries, tables)])
+    return [*found, *page_objections(MEASURES, text, [name for name, _ in measure_pages.reference(entries, tables)])]
 
 
 def read_all():

@@ -1,17 +1,24 @@
 #!/usr/bin/env python3
-"""How long files and functions may be, in C++ and Python, and how much a unit may know that others
-would hand all their work to.
+"""How long files, functions and lines may be, in C++, Python and JavaScript, how much a unit may know that others
+would hand all their work to, and what README and a picture may weigh.
 
     python3 tests/checks/sizes.py      prints what is longer
 """
 
 import ast
+import re
+import sys
 
 from cpp_functions import functions
-from source_tree import includes, is_cpp, is_ours, main, unit
+from source_tree import CPP, PYTHON, ROOT, includes, is_cpp, is_ours, read_tree, report, unit
 
 LONGEST_FILE = 600      # lines
 LONGEST_FUNCTION = 80   # lines, from the first word of its declaration to its last brace
+LONGEST_LINE = 120      # characters, of Python and JavaScript; clang-format keeps C++ to 100
+MOST_LONGER = {".py": 18, ".js": 266}  # lines that are longer all the same: fewer is welcome
+MOST_WORDS = 900        # of README.md
+MOST_BYTES = 150_000    # of a picture of the documents
+FILM = "docs/pictures/lis1.webp"
 MOST_EXCEPTIONS = 3
 
 # Functions that may be longer: {"path: name": the reason}.
@@ -29,10 +36,34 @@ def python_functions(text):
             yield node.name, node.end_lineno - first + 1
 
 
+# At the first level and as a member of a class; what lies in a function counts as part of it.
+JS_FUNCTION = re.compile(r"^( *)(?:async |static |get |set )*(?!(?:if|for|while|switch)\b)(?:function\*? )?(\w+)\([^\n]*\) \{\n.*?^\1\}",
+                         re.MULTILINE | re.DOTALL)
+
+
 def function_lengths(path, text):
+    if path.endswith(".js"):
+        return [(found[2], found[0].count("\n") + 1) for found in JS_FUNCTION.finditer(text)]
     if not is_cpp(path):
         return list(python_functions(text))
     return [(function.name, function.lines) for function in functions(text)]
+
+
+def long_lines(tree, most):
+    for ending, allowed in most.items():
+        found = [f"{path}:{number}" for path, text in tree.items() if path.endswith(ending)
+                 for number, line in enumerate(text.splitlines(), 1) if len(line) > LONGEST_LINE]
+        if len(found) > allowed:
+            yield f"{len(found)} lines of {ending} are longer than {LONGEST_LINE}, allowed: {allowed}; such as {found[-1]}"
+
+
+def documents_too_large(words, pictures):
+    """`words` of README; `pictures`: bytes by path."""
+    if words > MOST_WORDS:
+        yield f"README.md: {words} words, allowed: {MOST_WORDS}"
+    for path, size in pictures.items():
+        if size > MOST_BYTES and path != FILM:
+            yield f"{path}: {size} bytes, allowed: {MOST_BYTES}"
 
 
 def units_too_large(tree):
@@ -47,10 +78,10 @@ def units_too_large(tree):
             yield f"{name}: includes {len(headers)} headers of ours, at most {most_headers}"
 
 
-def violations(tree, exceptions=None):
-    """Files, units and functions of a tree over the limits, and exceptions that are none (any more)."""
+def violations(tree, exceptions=None, most_longer=None):
+    """Files, units, functions and lines of a tree over the limits, and exceptions that are none (any more)."""
     exceptions = EXCEPTIONS if exceptions is None else exceptions
-    found, used = list(units_too_large(tree)), set()
+    found, used = [*units_too_large(tree), *long_lines(tree, MOST_LONGER if most_longer is None else most_longer)], set()
     for path, text in tree.items():
         lines = len(text.splitlines())
         if lines > LONGEST_FILE:
@@ -74,5 +105,15 @@ def violations(tree, exceptions=None):
     return found
 
 
+def read_sources():
+    return read_tree(suffixes=CPP | PYTHON | {".js"})
+
+
+def read_documents():
+    pictures = (file for folder in ("pictures", "report") for file in sorted((ROOT / "docs" / folder).glob("*.[wpgs]*")))
+    return (len((ROOT / "README.md").read_text(encoding="utf-8").split()),
+            {file.relative_to(ROOT).as_posix(): file.stat().st_size for file in pictures})
+
+
 if __name__ == "__main__":
-    main(violations)
+    sys.exit(report([*violations(read_sources()), *documents_too_large(*read_documents())]))

@@ -1,7 +1,8 @@
 import unittest
 
 from cpp_functions import functions
-from sizes import EXCEPTIONS, SMALL_UNITS, violations
+from sizes import (EXCEPTIONS, FILM, SMALL_UNITS, documents_too_large, read_documents, read_sources,
+                   violations)
 from source_tree import read_tree, unit
 
 
@@ -56,6 +57,29 @@ class PlantedViolations(unittest.TestCase):
                          ["apps/figures/python/plot.py: draw: 82 lines",
                           "apps/figures/python/plot.py: inner: 81 lines"])
 
+    def test_java_script(self):
+        page = "apps/figures/draw/page.js"
+        self.assertEqual(self.found(page, "step();\n" * 601), [f"{page}: 601 lines"])
+        self.assertEqual(self.found(page, "function show(t) {\n" + "  if (t) {\n    step();\n  }\n" * 27 + "}\n"),
+                         [f"{page}: show: 83 lines"])
+        self.assertEqual(self.found(page, "class Section {\n  draw({at = {}}) {\n" + "    step();\n" * 79 + "  }\n}\n"),
+                         [f"{page}: draw: 81 lines"])
+        self.assertEqual(self.found(page, "class Section {\n" + "  draw() {\n    step();\n  }\n" * 30 + "}\n"), [])
+
+    def test_long_lines(self):
+        for path in "apps/a.js", "apps/a.py":
+            text = f"{'a' * 120}\n{'a' * 121}\n"
+            found = self.found(path, text, most_longer={".py": 0, ".js": 0})
+            self.assertEqual(len(found), 1)
+            self.assertIn(f"such as {path}:2", found[0])
+            self.assertEqual(self.found(path, text, most_longer={".py": 1, ".js": 1}), [])
+
+    def test_documents(self):
+        self.assertEqual(list(documents_too_large(900, {"docs/pictures/a.webp": 150_000, FILM: 600_000})), [])
+        found = list(documents_too_large(901, {"docs/pictures/a.webp": 150_001}))
+        self.assertEqual(found, ["README.md: 901 words, allowed: 900",
+                                 "docs/pictures/a.webp: 150001 bytes, allowed: 150000"])
+
     def test_a_session_that_knows_every_trade(self):
         header, source = "apps/run/session.hpp", "apps/run/session.cpp"
         lines = "int step();\n"
@@ -99,7 +123,10 @@ class Functions(unittest.TestCase):
 
 class Sources(unittest.TestCase):
     def test_keep_to_the_limits(self):
-        self.assertEqual(violations(read_tree()), [])
+        self.assertEqual(violations(read_sources()), [])
+        words, pictures = read_documents()
+        self.assertIn(FILM, pictures)
+        self.assertEqual(list(documents_too_large(words, pictures)), [])
 
     def test_small_units_are_there(self):
         self.assertLessEqual(SMALL_UNITS.keys(), {unit(path) for path in read_tree()})

@@ -4,7 +4,6 @@ has every call and option.
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
 """
 
-import os
 import re
 import shutil
 import subprocess

@@ -1,4 +1,4 @@
-// The page: what is shown, what is clicked, what the address says.
+// The page: what is shown, what is clicked.
 
 const page = {
   data: dataOf("data"),
@@ -377,38 +377,6 @@ async function measureLine(section, from, to) {
   page.picked = {kind: "line", run: section.run, text: `Measured: ${metresText(Math.hypot(x1 - x0, z1 - z0))}, dip ` +
     `${dip.toFixed(1)}°, ${metresText(Math.abs(x1 - x0))} across, ${metresText(Math.abs(z1 - z0))} down`};
   describe();
-}
-
-/** What the address says of the page, after its "#". */
-function addressWords() {
-  const {view} = page, words = new URLSearchParams({t: page.t, colour: page.mode, palette: page.palette,
-    view: [view.left, view.top, view.scale * page.sections[0].host.clientWidth / page.sections[0].discCanvas.width, view.height]
-      .map(value => Number(value.toPrecision(8))).join(","), shown: [...page.shown].join(",")});
-  return String(words);
-}
-
-function writeAddress() {
-  try { history.replaceState(null, "", `#${addressWords()}`); } catch { /* a browser that keeps a file's address */ }
-}
-
-let addressTimer = 0;
-
-/** Browsers ignore addresses that change hundreds of times in seconds: this one is written when the view rests. */
-function writeAddressSoon() {
-  $("copy").textContent = "copy link";
-  clearTimeout(addressTimer);
-  addressTimer = setTimeout(writeAddress, 400);
-}
-
-function readAddress() {
-  const words = new URLSearchParams(location.hash.slice(1) || location.search);
-  page.t = momentWithin(words.has("t") ? Number(words.get("t")) : Infinity);
-  if (modesOf(page.runs).includes(words.get("colour"))) page.mode = words.get("colour");
-  if (Object.hasOwn(palettes, words.get("palette"))) page.palette = words.get("palette");
-  page.shown = new Set(words.has("shown") ? words.get("shown").split(",")
-    : Object.keys(page.layers).filter(name => page.layers[name].on));
-  const view = (words.get("view") || "").split(",").map(Number);
-  return view.length === 4 && view.every(Number.isFinite) && view[2] > 0 && view[3] > 0 ? view : null;
 }
 
 // -- at the start

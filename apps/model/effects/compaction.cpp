@@ -46,7 +46,7 @@ const Effect& effect() {
                 return work.years / scene.find<P>()->interval * 4.0 * work.discs;
             },
         // With burial sediment shrinks: lis1 takes 1.85 times the discs of a packing of the area
-        // that it fills, of which 1.1 have been counted.
+        // that it fills; 1.1 times have been counted.
         .new_area =
             [](const Scene& scene) {
                 return 0.75 * greatest_extension(scene) * scene.hanging_wall.thickness;

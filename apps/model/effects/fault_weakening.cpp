@@ -174,7 +174,7 @@ std::string explain(const Scene& scene, EffectList) {
         p.circle_diameters * diameter);
 }
 
-/// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
+/// Over the hanging wall's area at the start; nothing is told once there is more sediment.
 std::optional<double> volume_error_of(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
     if (ledger.deposited - ledger.removed > ledger.initial)

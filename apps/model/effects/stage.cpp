@@ -87,7 +87,7 @@ bool has_turned(const Observation& now) {
 }
 
 /// Growth of the area above the regional since a row, m^2, with what was eroded meanwhile: its mass
-/// at the hanging wall's density, as nothing keeps of which rock it was.
+/// at the hanging wall's density, since nothing keeps which rock it was.
 std::optional<double> uplift_since(const Observation& now, std::size_t row) {
     const auto before = recorded(now, "uplift_area_m2", row);
     if (!before || !has_turned(now))

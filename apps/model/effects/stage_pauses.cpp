@@ -13,7 +13,7 @@ using namespace dem;
 
 namespace {
 
-/// Strain of every disc since the run began, with that of the window so far.
+/// Strain of every disc since the run began, the present window included.
 std::vector<double> strain_so_far(const State& state) {
     std::vector<double> strain = shear_strain(state);
     const auto before = state.discs.get<double>("total_strain");
