@@ -91,6 +91,7 @@ class Installed(unittest.TestCase):
         schema = scene.parent / scene.read_text().split()[1]
         self.assertIn("hanging_wall", json.loads(schema.read_text())["properties"])
         self.assertIn("lis1: correct: ", self.program("check", "lis1"))
+        self.assertTrue((share / "listric/records/validation.csv").is_file())
         for script in ("bash-completion/completions/listric", "zsh/site-functions/_listric",
                        "fish/vendor_completions.d/listric.fish"):
             self.assertIn("lis1-elastic", (share / script).read_text())

@@ -5,6 +5,7 @@ beside sources that are built in a moment; dpkg, apt and sudo are scripts that n
 import os
 import pathlib
 import pty
+import re
 import shutil
 import subprocess
 import tempfile
@@ -125,7 +126,7 @@ class Launcher(unittest.TestCase):
         os.utime(calls, (0, 0))
         without_tools = {"PATH": str(self.tools_but("cmake", "ninja", "c++"))}
         for words in ("run", "--help"), ("help",), ("--version",), ():
-            self.assertEqual(self.call(*words, **without_tools)[0], "program: " + "".join(f"<{word}>" for word in words))
+            self.assertEqual(self.call(*words, **without_tools)[0], f"program: <{'><'.join(words)}>")
         os.utime(calls)
         self.call("help", code=2, **without_tools) # builds, since its calls may have changed
 
@@ -310,6 +311,17 @@ class Launcher(unittest.TestCase):
         _, said = self.call("test", "-N")
         self.assertIn("no package chromium gmsh: going on without", said)
         self.assertTrue(self.installs()[0].endswith(" chromium-driver petsc-dev"), self.installs())
+
+    def test_tests_have_two_speeds(self):
+        with open(self.root / "CMakeLists.txt", "a") as project:
+            project.write("enable_testing()\nforeach(name quick slow)\n  add_test(NAME ${name} COMMAND true)\nendforeach()\n"
+                          "set_tests_properties(quick PROPERTIES LABELS regression)\n"
+                          "set_tests_properties(slow PROPERTIES LABELS regression_long)\n")
+        for words, ran in ((), {"quick"}), (("--all",), {"quick", "slow"}), (("-R", "slow"), {"slow"}), \
+                (("-L", "regression"), {"quick", "slow"}), (("--all", "-R", "quick"), {"quick"}):
+            out, said = self.call("test", *words)
+            self.assertEqual(set(re.findall(r"Start \d+: (\w+)", out)), ran, words)
+            self.assertEqual("--all runs all" in said, not words)
 
     def test_an_installation_shows_how_far_it_is(self):
         self.note("missing", "g++")

@@ -249,8 +249,14 @@ class SceneSchema(unittest.TestCase):
         for folder, schema in ("scenes", "scene"), ("materials", "material"):
             for path in (SOURCES / "apps" / folder).glob("*.toml"):
                 name = re.match(r"#:schema (\S+)\n", path.read_text())[1]
-                self.assertEqual((path.parent / name).resolve(),
-                                 SOURCES / f"apps/{schema}.schema.json")
+                named = (path.parent / name).resolve()
+                self.assertEqual(named, SOURCES / f"apps/{schema}.schema.json")
+                self.assertTrue(named.is_file(), "the build makes it")
+
+    def test_is_made_by_the_build(self):
+        for option in ("", "--material", "--sweep", "--validation", "--flexure"):
+            made = SOURCES / f"apps/{option[2:] or 'scene'}.schema.json"
+            self.assertEqual(json.loads(made.read_text()), schema_of(*option.split()), made)
 
     def test_agrees_with_the_program_on_spoilt_scenes(self):
         dice = random.Random(2026)
