@@ -37,7 +37,7 @@ def block(entries, tables):
     listed = list(reference(entries, tables))
     parts = [" · ".join(f"[`{name}`](#{anchor(name)})" for name, _ in listed)]
     for name, one in listed:
-        parts += [f"### {name}", " ".join(filter(None, (sentence(one["doc"]), " · ".join(facts(one)))))]
+        parts.append(f"### {name}\n" + " ".join(filter(None, (sentence(one["doc"]), " · ".join(facts(one))))))
     return "\n\n".join(filter(None, parts)) + "\n\n"
 
 

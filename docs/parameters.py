@@ -174,7 +174,7 @@ def page(schema):
         for key, one in keys.items():
             name = f"{table}.{key}".lstrip(".")
             declared = one["x-listric"]
-            lines.append(f"\n### {name}\n\n{sentence(declared['doc'])} {declared['changes']} "
+            lines.append(f"\n### {name}\n{sentence(declared['doc'])} {declared['changes']} "
                          f"{' · '.join(facts(name, declared))}\n")
     return "".join(lines)
 

@@ -43,7 +43,8 @@ def shown(output, name, pictures):
         return f"![{name}, picture {len(pictures)}](../pictures/notebook-{name}-{len(pictures)}.webp)\n"
     if "text/html" in data:
         html = re.sub(r"<style.*?</style>\s*", "", data["text/html"], flags=re.DOTALL)
-        return re.sub(r"\n\s*", "\n", html).strip() + "\n"
+        lines = re.sub(r"\n\s*", "\n", html).strip() + "\n"
+        return re.sub(r"\n(?=<t[hd]\b|</tr>)", "", lines)  # a row of a table stands on a line
     return f"```\n{(output.get('text') or data.get('text/plain', '')).rstrip()}\n```\n"
 
 
