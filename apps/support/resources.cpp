@@ -34,8 +34,7 @@ fs::path record_folder() {
         return other;
     std::error_code error;
     const fs::path beside = resource_folder() / "records";
-    return fs::is_directory(beside, error) ? beside
-                                           : fs::path(LISTRIC_SOURCE_DIR) / "apps/records";
+    return fs::is_directory(beside, error) ? beside : fs::path(LISTRIC_SOURCE_DIR) / "apps/records";
 }
 
 } // namespace listric

@@ -9,8 +9,8 @@ namespace listric {
 /// it was built from.
 std::filesystem::path resource_folder();
 
-/// Where recorded runs are, by which errors are known: the folder LISTRIC_RECORDS of the environment,
-/// else `records` beside scenes, else those of the source tree.
+/// Where recorded runs are, by which errors are known: the folder LISTRIC_RECORDS of the
+/// environment, else `records` beside scenes, else those of the source tree.
 std::filesystem::path record_folder();
 
 /// Whether the executable is an installed one, with its files beside it.

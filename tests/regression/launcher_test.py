@@ -369,7 +369,7 @@ class Launcher(unittest.TestCase):
         origin = self.root / "build/native/origin"
         built = origin.read_text()
         origin.write_text(f"{self.root}\nflags : sse2 avx4096\n")
-        for words in (("scenes",), ("help",)):  # which has no page here
+        for words in (("scenes",), ("help", "run")):
             _, said = self.call(*words, user=user, code=4)
             self.assertIn("for another processor; LISTRIC_BUILD", said)
         origin.write_text(built)
