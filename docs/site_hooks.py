@@ -18,7 +18,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from PIL import Image
 from mkdocs.exceptions import PluginError
+from mkdocs.plugins import event_priority
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -48,6 +50,9 @@ DEMOS = "try"  # folder of the site
 CALL = re.compile(r"^  ([a-z]+)  ", re.MULTILINE)  # in the list of all calls
 DRAWING = "architecture.svg"
 MADE = tempfile.TemporaryDirectory(prefix="listric-site-")  # pages of this build
+FILM = "pictures/lis1.webp"
+# Weights of pages in the search, by how their places begin: guides come before notes that they were written from.
+WEIGHTS = {"record/": 0.1, "CHANGELOG/": 0.1}
 formulas = []  # (TeX, whether it stands on a line of its own) of all pages
 
 
@@ -59,7 +64,42 @@ def on_pre_build(config):
     formulas.clear()
 
 
+@event_priority(-100)  # when the search has written its files
 def on_post_build(config):
+    put_katex(config)
+    weigh_search(Path(config["site_dir"], "search"))
+    put_still(Path(config["site_dir"], FILM))
+    if demos():
+        make_demos(config["site_dir"])
+
+
+def weigh_search(folder):
+    """Gives entries of the search their weights, which the script that comes with mkdocs does not know."""
+    index, script = folder / "search_index.json", folder / "worker.js"
+    content, text = json.loads(index.read_text()), script.read_text()
+    for entry in content["docs"]:
+        for begin, weight in WEIGHTS.items():
+            if entry["location"].startswith(begin):
+                entry["boost"] = weight
+    index.write_text(json.dumps(content, separators=(",", ":")))
+    weighed = text.replace("this.add(doc);", "this.add(doc, {boost: doc.boost || 1});")
+    if weighed == text:
+        raise PluginError("search/worker.js adds its documents in another way than docs/site_hooks.py knows")
+    script.write_text(weighed)
+
+
+def still_of(film):
+    return film.with_name(f"{film.stem}-still{film.suffix}")
+
+
+def put_still(film):
+    """The last picture of the film, for readers who stop it or whose system asks for no motion."""
+    picture = Image.open(film)
+    picture.seek(picture.n_frames - 1)
+    picture.convert("RGB").save(still_of(film), quality=80)
+
+
+def put_katex(config):
     """KaTeX's style, with its fonts in the one format that all browsers take."""
     to = Path(config["site_dir"], "katex")
     Path(to, "fonts").mkdir(parents=True, exist_ok=True)
@@ -67,20 +107,6 @@ def on_post_build(config):
     Path(to, "katex.css").write_text(style)
     for font in set(re.findall(r"url\(([^)]*)\)", style)):
         shutil.copy(KATEX_STYLE.parent / font, to / font)
-    sort_search(Path(config["site_dir"], "search/worker.js"))
-    if demos():
-        make_demos(config["site_dir"])
-
-
-def sort_search(script):
-    """Guides come before the lab book among what the search finds."""
-    found = "return resultDocuments;"
-    text = script.read_text()
-    if found not in text:
-        raise PluginError(f"{script}: has no {found!r}, where guides are put before the lab book")
-    in_book = "doc => doc.location.startsWith('record/')"
-    script.write_text(text.replace(found, f"const inBook = {in_book};\n  return resultDocuments.sort((a, b) => "
-                                          "inBook(a) - inBook(b));"))
 
 
 def on_files(files, config):
@@ -153,8 +179,23 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def on_page_content(html, page, config, files):
-    """A click on a picture shows it alone, at its size; small ones stand in tables and links already."""
+    """A click on a picture shows it alone, at its size; small ones stand in tables and links already. The film can be stopped."""
+    html = re.sub(rf'<p>(<img\b[^>]*?\bsrc="{FILM}"[^>]*>)</p>', with_still, html)
     return re.sub(r'<p>(<img\b[^>]*?\bsrc="([^"]+)"[^>]*>)</p>', r'<p><a href="\2">\1</a></p>', html)
+
+
+def with_still(match):
+    still = match[1].replace(FILM, still_of(Path(FILM)).as_posix())
+    return (f'<div class="film"><input type="checkbox" id="stop-film"><label for="stop-film">Stop the film</label>'
+            f'<div class="moving">{match[1]}</div><div class="still">{still}</div></div>')
+
+
+def on_post_page(output, page, config):
+    """Names for the theme's bar, and for its buttons that show a sign alone."""
+    output = output.replace('<div class="navbar fixed-top', '<div role="navigation" aria-label="Site" class="navbar fixed-top', 1)
+    for button, name in (('data-target="#navbar-collapse"', "Menu"), ('data-target="#toc-collapse"', "Contents of this page")):
+        output = output.replace(button, f'{button} aria-label="{name}"', 1)
+    return output
 
 
 def mark_formula(match):

@@ -60,7 +60,7 @@ void remove_all(const std::vector<fs::path>& paths) {
 }
 
 /// A resumed run must be the same run; comments may have changed with the program, and whether
-/// there is a report is nothing of the run.
+/// there is a report or a picture is nothing of the run.
 /// @param text  of the scene that a file of the run's folder holds
 void require_same_scene(const std::map<std::string, std::string>& now, const std::string& text,
                         const fs::path& file) {

@@ -61,12 +61,22 @@ std::string value_in(const std::map<std::string, std::string>& values,
 
 } // namespace
 
+namespace {
+
+/// Whether a line of a scene is nothing of the run, but of what is shown of it.
+bool is_of_looks(std::string_view line) {
+    return line.starts_with("report = ") || line.starts_with("picture = ") ||
+           line.starts_with("corners_m = ");
+}
+
+} // namespace
+
 std::vector<std::string> scene_lines(std::string_view text) {
     std::vector<std::string> lines;
     std::istringstream in{std::string(text)};
     for (std::string line; std::getline(in, line);)
         if (const std::string_view said = without_comment(line);
-            !said.empty() && !said.starts_with("report = "))
+            !said.empty() && !is_of_looks(said))
             lines.emplace_back(said);
     return lines;
 }

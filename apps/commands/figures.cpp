@@ -121,7 +121,7 @@ Command add_figures(CLI::App& program) {
     return {command, [call] {
                 FiguresRequest wanted = call->request;
                 require_sense(*call);
-                wanted.underlay = underlay_of(call->underlay);
+                wanted.underlay = underlay_of(call->underlay, {wanted.output});
                 if (!call->animation)
                     require_formats(call->formats, picture_formats);
                 if (!call->formats.empty())

@@ -36,7 +36,8 @@ Command add_report(CLI::App& program) {
                       "compute horizons and the past of faults at all moments; takes longer");
     add_underlay(*command, call->underlay);
     return {command, [call] {
-                call->request.underlay = underlay_of(call->underlay);
+                call->request.underlay = underlay_of(
+                    call->underlay, {call->request.outputs.begin(), call->request.outputs.end()});
                 const WrittenReport report = report_run(call->request);
                 std::cout << report.file.string() << '\n';
                 for (const std::string& lack : report.lacks)

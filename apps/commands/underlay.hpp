@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ void add_underlay(CLI::App& command, UnderlayOptions& options);
 void require_corners(const std::vector<double>& corners);
 
 /// Throws UsageError.
-std::optional<Underlay> underlay_of(const UnderlayOptions& options);
+/// @param runs  folders whose scenes may have the picture's corners
+std::optional<Underlay> underlay_of(const UnderlayOptions& options,
+                                    const std::vector<std::filesystem::path>& runs);
 
 } // namespace listric

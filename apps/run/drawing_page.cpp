@@ -77,12 +77,18 @@ toml::array pieces_of(const dem::DetachmentParameters& detachment) {
 }
 
 /// The scene's document with pieces in place of a picked fault, and without picks, which the page
-/// has as lines.
+/// has as lines; its picture stays named.
 std::string scene_text(const Scene& scene, const fs::path& path, EffectList effects) {
     toml::table document = scenes.read(path);
     make_names_absolute(document, path.parent_path(), effects);
     document.erase("picked_fault");
-    document.erase("observed");
+    if (toml::table* observed = document["observed"].as_table()) {
+        for (const char* key : {"horizons", "faults", "shift_x_m", "horizon_lines", "fault_lines"})
+            observed->erase(key);
+        make_absolute(observed->get("picture"), path.parent_path());
+        if (observed->empty())
+            document.erase("observed");
+    }
     if (toml::table* given = document["detachment"].as_table()) {
         if (scene.picked_fault) {
             given->insert_or_assign("start_dip_deg", scene.detachment->start_dip);
@@ -283,11 +289,28 @@ Json picture_json(const UnderPicture& picture) {
     }
     const auto* const data = reinterpret_cast<const unsigned char*>(read.bytes.data());
     Json json{{"name", picture.file.filename().string()},
+              {"file", fs::absolute(picture.file).lexically_normal().string()},
               {"image", fmt::format("data:image/{};base64,{}", read.type,
                                     base64({data, read.bytes.size()}))}};
     if (picture.corners)
         json["corners_m"] = *picture.corners;
     return json;
+}
+
+/// The picture of the call, in the place that the call or the scene has for it, or else the
+/// scene's, if it is there.
+std::optional<UnderPicture> picture_of(const std::optional<UnderPicture>& asked,
+                                       const Scene& scene) {
+    if (!scene.observed || scene.observed->picture.empty())
+        return asked;
+    UnderPicture own{scene.observed->picture, std::array<double, 4>()};
+    std::ranges::copy(scene.observed->corners, own.corners->begin());
+    std::error_code error;
+    if (!asked)
+        return fs::is_regular_file(own.file, error) ? std::optional(own) : std::nullopt;
+    return asked->corners || asked->file.filename() != own.file.filename()
+               ? asked
+               : std::optional<UnderPicture>({asked->file, own.corners});
 }
 
 } // namespace
@@ -299,6 +322,7 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     Json data{{"program", "listric " + std::string(version)},
               {"scene", scene.name},
               {"on_shelf", !is_path(name)},
+              {"shelf", scenes.names()},
               {"toml", scene_text(scene, path, effects)},
               {"basement", basement_source.key},
               {"rocks", rocks_json(scene)},
@@ -312,8 +336,8 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     if (scene.picked_fault)
         data["fault_points"] = {{"x_m", scene.picked_fault->x},
                                 {"depth_m", scene.picked_fault->depth}};
-    if (picture)
-        data["picture"] = picture_json(*picture);
+    if (const auto shown = picture_of(picture, scene))
+        data["picture"] = picture_json(*shown);
     data["speeds"] = speeds_json(threads);
     const fs::path folder = resource_folder() / "figures/draw";
     const auto joined = [&](std::initializer_list<const char*> names) {

@@ -33,7 +33,27 @@ std::vector<std::string> pieces_of(const CsvRows& rows) {
     return pieces;
 }
 
+/// Largest coordinate of a section of the Earth: nobody means more, m.
+constexpr double furthest = 1e8;
+
 } // namespace
+
+std::string objection_to_corners(const std::vector<double>& c) {
+    if (c.size() != 4)
+        return c.empty() ? "are missing" : fmt::format("{} numbers", c.size());
+    for (const double value : c)
+        if (!(std::abs(value) <= furthest))
+            return fmt::format("{:g} is no place in a section", value);
+    const auto is_above = [](double low, double high) {
+        return high - low > 1e-6 * std::max(std::abs(low), std::abs(high));
+    };
+    if (!is_above(c[0], c[2]))
+        return fmt::format("x1 = {:g} must be greater than x0 = {:g}", c[2], c[0]);
+    if (!is_above(c[1], c[3]))
+        return fmt::format("z1 = {:g} must be greater than z0 = {:g}{}", c[3], c[1],
+                           c[3] < 0.0 ? ", these are heights" : "");
+    return {};
+}
 
 PickedFile read_picked_lines(const std::filesystem::path& path, double shift) {
     const CsvRows rows = read_csv(path, {.words = "name",

@@ -21,10 +21,15 @@ struct ObservedSource {
     std::optional<double> shift_x; ///< added to every x, m; none: as that of the detachment
 };
 
-/// Picks that the model is compared with.
+/// Picks that the model is compared with, and the picture of the section.
 struct Observed {
     std::vector<PickedLine> horizons, faults;
+    std::string picture;         ///< its file; empty: none is named
+    std::vector<double> corners; ///< of the picture, upper left and lower right: x, depth, m
 };
+
+/// Why numbers are no corners of a picture in a section; empty: they are.
+std::string objection_to_corners(const std::vector<double>& corners);
 
 /// Picked lines of a file, and on which of its lines each point is.
 struct PickedFile {

@@ -141,6 +141,15 @@ public:
     /// That have been read, by key.
     const auto& files() const { return files_; }
 
+    /// Warnings of files beside the scene that have the names of rocks on the shelf.
+    std::vector<std::string> namesakes() const {
+        std::vector<std::string> warnings;
+        for (const auto& [key, name] : names_)
+            if (std::string warning = materials.namesake(name.file, folder_); !warning.empty())
+                warnings.push_back(std::move(warning));
+        return warnings;
+    }
+
 private:
     const toml::node* table_;
     fs::path folder_;
@@ -302,6 +311,8 @@ void take_observed(Scene& scene, const SceneTable& table, const toml::table& doc
         lines = picked.lines;
         check_picks(scene, picked, kind, shift);
     };
+    if (std::string& picture = scene.observed->picture; !picture.empty())
+        picture = fs::absolute(located(picture, given.get("picture"), folder)).lexically_normal();
     take("horizons", source.horizons, PickKind::horizons, scene.observed->horizons);
     take("faults", source.faults, PickKind::faults, scene.observed->faults);
 }
@@ -482,7 +493,10 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
         if (!warning.empty())
             scene.warnings.push_back(std::move(warning));
     check_rocks(scene, rocks, document);
+    std::ranges::move(rocks.namesakes(), std::back_inserter(scene.warnings));
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
+    if (std::string warning = scenes.namesake(request.scene, "."); !warning.empty())
+        scene.warnings.push_back(std::move(warning));
     scene.files.push_back(path);
     for (const auto& [key, file] : rocks.files()) {
         scene.rocks.emplace(key, file);

@@ -258,6 +258,8 @@ std::string scene_schema(EffectList effects) {
                 parameter_schema(parameter, table.source_defaults);
     }
     allow_sources(properties["detachment"]);
+    properties["observed"]["dependencies"] = {{"picture", {"corners_m"}},
+                                              {"corners_m", {"picture"}}};
     schema["required"].push_back("hanging_wall");
     schema["dependencies"] = dependencies(effects);
     return finished_schema("A scene of Listric", schema);

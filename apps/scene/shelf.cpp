@@ -64,6 +64,16 @@ fs::path Shelf::find(const std::string& wanted) const {
                      fmt::join(shipped, ", ")));
 }
 
+std::string Shelf::namesake(const std::string& wanted, const fs::path& beside) const {
+    const fs::path other = beside / (wanted + ".toml");
+    std::error_code error;
+    if (is_path(wanted) || !fs::is_regular_file(other, error) ||
+        fs::equivalent(other, find(wanted), error))
+        return {};
+    return fmt::format("{0}: is the shipped {1}; the file {0}.toml in this folder is ./{0}.toml",
+                       wanted, kind);
+}
+
 namespace {
 
 constexpr std::size_t most_bytes = 64'000'000;

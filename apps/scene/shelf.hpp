@@ -20,6 +20,10 @@ struct Shelf {
     std::vector<std::string> names() const; ///< of the files on it, sorted
     /// The file that a name on the shelf or a path means.
     std::filesystem::path find(const std::string& name_or_path) const;
+    /// Warning where a name on the shelf is also that of a file in a folder, which somebody may
+    /// mean; empty: it is not.
+    std::string namesake(const std::string& name_or_path,
+                         const std::filesystem::path& folder) const;
     toml::table read(const std::filesystem::path& file) const;
 };
 

@@ -65,7 +65,7 @@ std::vector<Parameter> detachment_parameters() {
          "Lets rock that is pushed up run over the footwall; needed where a [[stage]] shortens.",
          between(2e4, 5e4)},
         {"footwall_friction", at<&P::footwall_friction>, "", ranges::friction, "",
-         "friction between discs and that ground",
+         "friction between discs and the ground behind the breakaway",
          "Raising it keeps what runs over the footwall nearer to the breakaway."},
         {"segments", at<&P::segments>, "", ranges::any, "",
          "arcs and lines, from the breakaway down",
@@ -137,6 +137,12 @@ std::vector<Parameter> observed_parameters() {
          "content of the file of horizons, written by the program", changes},
         {"fault_lines", at<&Observed::faults>, "", ranges::any, "",
          "content of the file of faults, written by the program", changes},
+        {"picture", at<&Observed::picture>, "", ranges::any, "",
+         "PNG or JPEG of the section, which --underlay of figures and report draws under the model",
+         "Needs corners_m. Is drawn in the drawing page; the model does not change."},
+        {"corners_m", at<&Observed::corners>, "m", between(-1e8, 1e8), "",
+         "upper left and lower right corner of the picture in the section: x, depth, x, depth",
+         "Place the picture; the model does not change."},
     };
 }
 

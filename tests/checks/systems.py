@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What other systems are told to install is what CMake asks for: packaging/environment.yml, Spack's recipe and
-the tables of docs/install.md.
+the tables of docs/install.md. All who name a version name that of CMakeLists.txt.
 
     python3 tests/checks/systems.py     prints what differs
 """
@@ -15,6 +15,9 @@ FILES = ("CMakeLists.txt", "apps/CMakeLists.txt", "coupling/CMakeLists.txt", "cm
          "cmake/parts/ranks.cmake")
 ENVIRONMENT, RECIPE = "packaging/environment.yml", "packaging/spack/packages/listric/package.py"
 INSTALL = "docs/install.md"
+# Where the version stands besides CMakeLists.txt, and how.
+VERSIONS = (("CITATION.cff", r"^version: (\S+)$"), ("apps/python/pyproject.toml", r'^version = "(\S+)"$'),
+            ("docs/citing.md", r", version (\S+), "), ("docs/citing.md", r"  version = {(\S+)},"))
 ASKED = re.compile(r"(?:find_package|pkg_search_module)\((\S+)")
 
 # What CMake asks for: packages of Debian, Fedora, conda-forge and Spack; None: there is none.
@@ -48,6 +51,13 @@ def listed(environment):
     return set(re.findall(r"^  - ([\w.-]+)", environment.partition("dependencies:")[2], re.MULTILINE))
 
 
+def other_versions(texts):
+    version = re.search(r"^project\(listric VERSION (\S+)", texts["CMakeLists.txt"], re.MULTILINE)[1]
+    found = [(path, re.search(pattern, texts[path], re.MULTILINE)) for path, pattern in VERSIONS]
+    return [f"{path}: version {there[1] if there else 'none'}, CMakeLists.txt has {version}" for path, there in found
+            if not there or there[1] != version]
+
+
 def violations(texts):
     """`texts` are those of the files by their paths."""
     asked = {name for path in FILES for name in ASKED.findall(texts[path])}
@@ -57,12 +67,13 @@ def violations(texts):
     words = set(re.findall(r"[\w.+-]+", texts[INSTALL]))
     places = ((INSTALL, words), (INSTALL, words), (ENVIRONMENT, listed(texts[ENVIRONMENT])),
               (RECIPE, dependencies(texts[RECIPE])))
+    found += other_versions(texts)
     return found + [f"{path}: lacks {package}" for name in sorted(asked & NAMES.keys())
                     for package, (path, there) in zip(NAMES[name], places) if package and package not in there]
 
 
 def read_all():
-    return {path: Path(ROOT, path).read_text(encoding="utf-8") for path in (*FILES, ENVIRONMENT, RECIPE, INSTALL)}
+    return {path: Path(ROOT, path).read_text(encoding="utf-8") for path in (*FILES, ENVIRONMENT, RECIPE, INSTALL, *dict(VERSIONS))}
 
 
 if __name__ == "__main__":

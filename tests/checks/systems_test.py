@@ -24,6 +24,10 @@ class PlantedViolations(unittest.TestCase):
     def test_what_a_table_lacks(self):
         self.assertEqual(self.found(INSTALL, "libcsv-devel"), [f"{INSTALL}: lacks libcsv-devel"])
 
+    def test_a_version_of_its_own(self):
+        self.assertEqual(len(self.found("CITATION.cff", "\nversion: ", "\nversion: 9")), 1)
+        self.assertEqual(len(self.found("docs/citing.md", "  version = {", "  release = {")), 1)
+
 
 class Packaging(unittest.TestCase):
     def test_names_what_cmake_asks_for(self):

@@ -24,6 +24,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
 from program import NO_FIGURES, PROGRAM, SOURCES
+from refused_scenes import refused_scenes
 from run_folder_test import BOX
 
 CHAINS = os.environ.get("LISTRIC_CHAINS", "")
@@ -177,7 +178,7 @@ class Draw(Browsed):
         asked = [message["params"]["request"]["url"] for entry in self.driver.get_log("performance")
                  if (message := json.loads(entry["message"])["message"])["method"] == "Network.requestWillBeSent"]
         self.assertEqual([url.split(":")[0] for url in asked if not url.startswith(("data:", "blob:"))], ["file"])
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         self.assertIn("depth of 15.00 km at x = 15.00 km", self.text("told"))
 
     def test_02_a_node_is_dragged_and_the_chain_stays_tangential(self):
@@ -203,7 +204,7 @@ class Draw(Browsed):
         self.drag("node 1", 30, 30)                            # where it soles out: the arc keeps its end flat
         self.assertEqual(self.shape()["pieces"][1]["endDip"], 0)
         self.assertGreater(self.script("return depthOf(shapeNow());"), depth)
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         frames = self.script("return frameTimes;")
         if os.environ.get("LISTRIC_SHOW"):
             print(f"frames while dragging: {len(frames)}, median {sorted(frames)[len(frames) // 2]:.1f} ms, most {max(frames):.1f} ms")
@@ -233,7 +234,7 @@ class Draw(Browsed):
         self.assertEqual([p["kind"] for p in self.shape()["pieces"]], ["arc", "line"])
         self.script("chooseHandle('node 1'); $('add').click(); return 0;")     # a line gets a ramp
         self.assertEqual([p["kind"] for p in self.shape()["pieces"]], ["arc", "line", "arc", "arc", "line"])
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         self.script("chooseHandle('node 0'); return 0;")
         self.script("$('keep_depth').checked = true; return 0;")
         depth = self.script("return depthOf(shapeNow());")
@@ -292,7 +293,7 @@ class Draw(Browsed):
         share = pixel["px"] / 400
         self.assertAlmostEqual(corners[0] + share * (corners[2] - corners[0]), 5000, delta=0.1)
         self.assertAlmostEqual(corners[2], 40000, delta=0.1)
-        self.assertIn("--underlay section.png --corners", self.text("corners"))
+        self.assertIn(f"listric figures DIR --underlay {picture}", self.text("corners"))
         self.open()                                      # the other way: given to the page itself
         self.read_into_page(picture)
         self.assertTrue(self.script("return page.section.image.getAttribute('href').startsWith('data:image/png');"))
@@ -327,7 +328,7 @@ class Draw(Browsed):
             self.assertEqual(list(self.downloads.glob("*")), [])
             field.clear()
             field.send_keys(Keys.TAB)
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         find = self.driver.find_element("id", "find")
         for typed, why in (("extension.rate = 0.02", "did you mean extension.rate_m_per_a?"), ("porosty", "did you mean porosity?"),
                            ("detachment.friction = -1", "at least 0")):
@@ -346,9 +347,9 @@ class Draw(Browsed):
             self.assertEqual(tomllib.loads(written), tomllib.loads(text), path.name)
         for name in ("rfr.toml", "pure-shear.toml", "lis1-mud.toml"):     # by the page's own way in and out
             self.read_into_page(SOURCES / "apps/scenes" / name)
-            self.assertIn("Correct", self.text("state"), name)
+            self.assertIn("finds no fault", self.text("state"), name)
             [file] = self.saved()
-            self.assertEqual(file.name, name)
+            self.assertEqual(file.name, name.replace(".toml", "-drawn.toml"))
             self.assertEqual(tomllib.loads(file.read_text()), tomllib.loads((SOURCES / "apps/scenes" / name).read_text()))
         odd = 'a."b c" = 1\nd = """x\\\n  y"""\ne = \'\'\'z\'\'\'\nf = [1, 2.5, # comment\n 0x1F, 9223372036854775807]\n' \
               'g = {h = true, i.j = "\\u00e9\\n"}\n[[k]]\nl = -1e-3\n[[k]]\n'
@@ -529,6 +530,57 @@ class Draw(Browsed):
         self.assertEqual(self.script("return getComputedStyle(document.querySelector('#section .pick.chosen .mark')).fill;"),
                          f"rgb({red}, {green}, {blue})")
 
+    def test_10d_a_drawn_scene_has_a_name_of_its_own_and_keeps_its_picture(self):
+        place, picture = self.folder / "pictured", self.folder / "section.png"
+        place.mkdir()
+        picture_file(picture)
+        self.open()
+        self.read_into_page(picture)
+        self.script("$('add').click(); change('', state => { Object.assign(state.picture[0], {px: 40, py: 15, x: 1234.567, depth: 300});"
+                    "Object.assign(state.picture[1], {px: 360, py: 135, x: 30000, depth: 12345}); }); return 0;")
+        corners = self.script("return cornersOf(pictureNow());")
+        [file] = self.saved()
+        self.assertEqual(file.name, "lis1-drawn.toml")
+        self.assertRegex(self.text("told"), r"listric check ./lis1-drawn.toml, then listric run ./lis1-drawn.toml --accuracy standard\. "
+                                            "It needs section.png beside it")
+        scene = shutil.copy(file, place)
+        shutil.copy(picture, place)
+        ended = listric("run", scene, "--accuracy", "draft", "--until", "500m", "--output", place / "run", "--no-report", "--threads", "1",
+                        env=os.environ | NO_FIGURES)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.assertRegex(ended.stdout.splitlines()[-1], "draft traces few faults: run it with --accuracy standard, about ")
+        ended = listric("figures", place / "run", "--underlay", picture, "--only", "strata", "--width", "85mm")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        other = shutil.copy(picture, place / "other.png")
+        self.assertIn("--corners: are missing", listric("figures", place / "run", "--underlay", other).stdout)
+        self.open()
+        self.read_into_page(scene, picture)
+        again = self.script("return cornersOf(pictureNow());")
+        self.assertEqual(listric("draw", scene, "-o", place / "again.html", "--threads", "1").returncode, 0)
+        self.open(place / "again.html")
+        for found in (again, self.script("return cornersOf(pictureNow());")):
+            for one, wanted in zip(found, corners):
+                self.assertAlmostEqual(one, wanted, delta=0.011)
+        self.script("$('drop_picture').click(); return 0;")
+        self.assertNotIn("observed", tomllib.loads(self.what_is_saved()["lis1-drawn.toml"]))
+        self.script("$('undo').click(); $('save_as').value = 'Lütken 7.toml'; $('save_as').onchange(); return 0;")
+        self.assertEqual(list(self.what_is_saved()), ["Lütken-7.toml"])
+        self.assertIn("listric check ./Lütken-7.toml decides", self.text("state"))
+        shutil.copy(scene, place / "lis1.toml")
+        said = listric("check", "lis1", cwd=place)
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("lis1: is the shipped scene; the file lis1.toml in this folder is ./lis1.toml", said.stdout)
+        self.assertNotIn("is the shipped", listric("check", "./lis1.toml", cwd=place).stdout)
+
+    def test_10e_the_next_call_is_draft_where_standard_takes_long(self):
+        self.open()
+        self.script("change('', state => setAt(state, 'extension.speed_m_per_s', 0.001)); return 0;")
+        self.what_is_saved()
+        self.assertRegex(self.text("told"), r"run ./lis1-drawn.toml --accuracy draft \(about .*; draft traces few faults, standard takes about .* [hd]\)")
+        self.script("change('', state => setAt(state, 'accuracy', 'fine')); return 0;")
+        self.what_is_saved()
+        self.assertRegex(self.text("told"), r"run ./lis1-drawn.toml$")
+
     def test_11_keyboard_alone(self):
         self.open()
         controls = self.script("return [...document.querySelectorAll('button, select, input, textarea, summary, .handle')].filter(e =>"
@@ -580,6 +632,33 @@ class Draw(Browsed):
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
+    def test_12b_two_fingers_zoom(self):
+        self.open()
+        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+        try:
+            left, top = self.script("const box = page.section.svg.getBoundingClientRect(); return [box.left + 500, box.top + 150];")
+            before, middle, scene = self.script("return [page.section.view.scale, page.section.metres(500, 150), page.state.scene];")
+            touch = lambda kind, *spread: self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [
+                {"x": left + side * x, "y": top, "id": n} for x in spread for n, side in enumerate((-1, 1))]})
+            touch("touchStart", 50)
+            for spread in (70, 90, 100):
+                touch("touchMove", spread)
+            touch("touchEnd")
+            self.frame()
+            self.assertAlmostEqual(self.script("return page.section.view.scale;") / before, 2.0, delta=0.02)
+            after = self.script("return page.section.metres(500, 150);")
+            self.assertAlmostEqual(after["x"], middle["x"], delta=3 / before)
+            self.assertEqual(self.scene(), scene)
+            self.script("showWhole(); return 0;")
+            self.drag("turn 0", 20, 0)                           # one finger, or a mouse, drags as before
+            self.assertLess(self.shape()["startDip"], 90)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+    def test_12c_nothing_that_is_pressed_lies_within_another(self):
+        self.open()
+        self.assertEqual(self.script("return document.querySelectorAll('summary input, summary button, label button').length;"), 0)
+
     def test_13_a_hostile_text_is_text(self):
         scene = self.folder / "hostile.toml"
         text = (SOURCES / "apps/scenes/lis1.toml").read_text()
@@ -596,7 +675,7 @@ class Draw(Browsed):
         before = self.scene()
         bad = self.folder / "bad.toml"
         for text, why in (("[hanging_wall]\nlength_m = 4\n[detachment]\nsegments = [{arc = 3}, 5]\nfrction = 1\n", r"line 5: detachment.frction: unknown key, did you mean friction\?"),
-                          ("[hanging_wall]\nx = ]\n", None), ("[hanging_wall]\n[detachment]\ncsv = 'fault.csv'\n[gravity]\n", "Correct"),
+                          ("[hanging_wall]\nx = ]\n", None), ("[hanging_wall]\n[detachment]\ncsv = 'fault.csv'\n[gravity]\n", "finds no fault"),
                           ("seed = 1.0\n[hanging_wall]\n[stretching]\n", "seed: wrong type")):
             bad.write_text(text)
             self.read_into_page(bad)
@@ -605,7 +684,7 @@ class Draw(Browsed):
             else:
                 self.assertIn("bad.toml:2: ", self.text("told"))
         self.script("document.getElementById('at_seed').value = '2'; page.forms.take('seed'); return 0;")
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         points = self.folder / "fault.csv"
         points.write_text("x_m;depth_m\n0;0\n100;1900\n\n# end\n")
         self.read_into_page(points)
@@ -656,7 +735,7 @@ class Draw(Browsed):
         shape, depth = self.shape(), self.script("return depthOf(shapeNow());")
         self.assertTrue(0.2 < shape["pieces"][0]["radius"] < 0.4, shape)
         self.assertAlmostEqual(self.scene()["hanging_wall"]["thickness_m"], depth, delta=1e-6)
-        self.assertIn("Correct", self.text("state"))
+        self.assertIn("finds no fault", self.text("state"))
         self.script("$('undo').click(); page.section.handles.find(h => h.dataset.key === 'node 0').focus(); return 0;")
         self.assertEqual(self.shape()["pieces"][0]["radius"], radius)
         self.assertIn("by 1 mm (Shift 10 mm, Alt 0.1 mm)", self.text("panel_fault"))
@@ -678,7 +757,7 @@ class Draw(Browsed):
         self.open()
         for path, greatest, travel in ((SOURCES / "apps/scenes/inversion-lis1.toml", 5000, 9000), (scene, 4000, 10260)):
             self.read_into_page(path)
-            self.assertIn("Correct", self.text("state"))
+            self.assertIn("finds no fault", self.text("state"))
             self.assertEqual(self.slide(1.0), greatest)
             self.assertEqual(self.text("extension_told"), f"{greatest / 1000:.1f} km")
             self.assertEqual(self.script("return valueAt(facts, schema, page.state.scene, 'extension.distance_m');"), travel)
@@ -690,6 +769,36 @@ class Draw(Browsed):
         self.read_into_page(scene)
         self.script("change('', state => setAt(state, 'extension.distance_m', 9000)); return 0;")
         self.assertIn("extension.distance_m: is 9000 beside [[stage]], whose ways it follows from (10260); leave it out", self.text("state"))
+
+    def test_14e_toml_is_refused_as_everywhere(self):
+        self.open()
+        texts = [f'a = "x{sign}y"' for sign in map(chr, (*range(32), 127))] + [f"a = 1 # x{sign}y" for sign in map(chr, (*range(32), 127))]
+        texts += ['a = "\\uD800"', 'a = "\\U00110000"', 'a = "\\U0010FFFF"', '[__proto__]\nx = 1', '__proto__ = {__proto__ = 2}', 'a.__proto__.b = 3',
+                  '[[__proto__]]\n[[__proto__]]\nx = 1', '[constructor]\n[toString]\nvalueOf = 1']
+        found = self.script("return a[0].map(text => { try { return writeToml(readToml(text).document, schema); } catch (error) {"
+                            "if (!(error instanceof TomlError)) throw error; return null; } });", texts)
+        for text, written in zip(texts, found):
+            try:
+                wanted = tomllib.loads(text)
+            except tomllib.TOMLDecodeError:
+                wanted = None
+            self.assertEqual(written and tomllib.loads(written), wanted, repr(text))
+        scene = (SOURCES / "apps/scenes/lis1.toml").read_text() + "\n[__proto__]\nx = 1\n"
+        state = self.script("takeSceneFile(a[0], 'odd.toml'); return $('state').textContent;", scene)
+        self.assertIn("__proto__: unknown table", state)
+
+    def test_14f_what_check_refuses_is_not_called_correct(self):
+        self.open()
+        scenes, scene = refused_scenes(), self.folder / "refused.toml"
+        self.assertGreaterEqual(len(scenes), 60)
+        for what, text in scenes.items():
+            with self.subTest(what):
+                scene.write_text(text)
+                self.assertEqual(listric("check", scene, cwd=self.folder).returncode, 2)
+                said, is_bad, told = self.script("$('told').textContent = ''; takeSceneFile(a[0], 'refused.toml'); return [$('state').textContent,"
+                                                 "$('state').classList.contains('bad'), $('told').textContent];", text)
+                self.assertNotRegex(said, "(?i)correct|accept")
+                self.assertTrue(is_bad or told.startswith("refused.toml:") or "listric check ./refused.toml decides" in said, said)
 
     def test_15_files_of_others_stay(self):
         other = self.folder / "mine.html"

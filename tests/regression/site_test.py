@@ -12,6 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from browsed import Browsed, browser
 from program import PROGRAM, SOURCES
 
 # What a browser fetches by itself, in a page, a style or a script.
@@ -111,15 +112,28 @@ class Site(unittest.TestCase):
         self.assertIn('src="../architecture.svg"', self.pages[Path("architecture/index.html")])
         self.assertIn("apps/run includes apps/scene", (self.site / "architecture.svg").read_text())
 
-    def test_the_search_finds_guides_before_the_lab_book(self):
-        found = ["record/index.html#a", "choosing/", "record/2026-11/rate/", "report/"]
-        script = (self.site / "search/worker.js").read_text() + f"""
-            documents = {json.dumps({place: {"location": place, "text": ""} for place in found})};
-            index = {{search: () => {json.dumps([{"ref": place} for place in found])}}};
-            allowSearch = true;
-            console.log(search("x").map(doc => doc.location).join());"""
-        self.assertEqual(subprocess.run(["node", "-e", script], check=True, stdout=subprocess.PIPE, text=True).stdout.strip(),
-                         "choosing/,report/,record/index.html#a,record/2026-11/rate/")
+    def test_the_search_finds_guides_before_records(self):
+        folder = self.site / "search"
+        index = json.loads((folder / "search_index.json").read_text())
+        self.assertTrue(all((entry.get("boost", 1) < 1) == entry["location"].startswith(("record/", "CHANGELOG/")) for entry in index["docs"]))
+        self.assertIn("{boost: doc.boost || 1}", (folder / "worker.js").read_text())
+        script = """
+            const lunr = require(process.argv[1] + "/lunr.js"), {docs, config} = require(process.argv[1] + "/search_index.json");
+            lunr.tokenizer.separator = new RegExp(config.separator);
+            const index = lunr(function () { for (const field of ["title", "text"]) this.field(field); this.ref("location");
+              for (const doc of docs) this.add(doc, {boost: doc.boost || 1}); });
+            console.log(JSON.stringify(process.argv.slice(2).map(words => index.search(words)[0].ref)));"""
+        words = ("Slurm", "salt", "elastic thickness", "sandbox", "mica", "weakening", "damping", "pause")
+        found = json.loads(subprocess.run(["node", "-e", script, folder.resolve(), *words], check=True, stdout=subprocess.PIPE, text=True).stdout)
+        self.assertEqual([place for place in found if place.startswith(("record/", "CHANGELOG/"))], [])
+
+    def test_buttons_have_names_and_the_film_a_still(self):
+        for page, text in self.pages.items():
+            for button in re.findall(r"<button\b[^>]*navbar-toggler[^>]*>", text):
+                self.assertIn("aria-label=", button, page)
+        home = self.pages[Path("index.html")]
+        self.assertRegex(home, r'<input type="checkbox" id="stop-film">.*class="moving">.*lis1.webp.*class="still">.*lis1-still.webp')
+        self.assertLess((self.site / "pictures/lis1-still.webp").stat().st_size, 150_000)
 
     def test_asks_no_other_host(self):
         files = [file for file in self.site.rglob("*") if file.suffix in (".html", ".css")]
@@ -162,6 +176,36 @@ class Site(unittest.TestCase):
         # There a backslash before a sign is Markdown's and is gone before TeX; \operatorname is refused.
         for page in SOURCES.glob("docs/theory/*.md"):
             self.assertNotRegex(page.read_text(), r"\\(?:[^A-Za-z\s]|operatorname)", page.name)
+
+
+class OnAPhone(Browsed):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.site = Path(folder.name, "site")
+        assert build(SOURCES, cls.site).returncode == 0
+        cls.driver = browser(folder.name, 390, 800)
+        cls.addClassCleanup(cls.driver.quit)
+        cls.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 800, "deviceScaleFactor": 2, "mobile": True})
+
+    def go(self, page):
+        self.driver.get(f"file://{self.site / page / 'index.html'}")
+
+    def test_no_page_is_wider_than_the_screen(self):
+        for page in (".", "theory/cycle", "theory/elastic-base", "theory/genesis", "parameters", "drawing", "validation"):
+            self.go(page)
+            self.assertEqual(self.script("return document.documentElement.scrollWidth;"), 390, page)
+
+    def test_the_film_stops(self):
+        self.go(".")
+        shown = "const of = name => getComputedStyle(document.querySelector(`.film .${name}`)).display !== 'none'; return [of('moving'), of('still')];"
+        self.assertEqual(self.script(shown), [True, False])
+        self.script("document.getElementById('stop-film').click(); return 0;")
+        self.assertEqual(self.script(shown), [False, True])
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
+        self.go(".")
+        self.assertEqual(self.script(shown), [False, True])
 
 
 class BrokenSite(unittest.TestCase):

@@ -10,7 +10,7 @@ function readScene(text, name, picks = {horizons: [], faults: []}, faultPoints =
     tell(`${name}:${error.line}: ${error.message}`);
     return false;
   }
-  const scene = read.document, {shift, asked, lines} = takePicks(scene);
+  const scene = read.document, {shift, asked, lines} = takeObserved(scene);
   page.lines = read.lines;
   page.state = {...page.state, scene, file: name, floats: read.floats, asked: {...asked, shift}, picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}, faultPoints};
   return true;
@@ -21,13 +21,14 @@ const pickKinds = ["horizons", "faults"];
 /** What the program adds to every x of a picked fault, and of picks that have no shift of their own. */
 function faultShift(scene) { return Number(scene.detachment?.shift_x_m) || 0; }
 
-/** Takes [observed] out of a scene: lines, names of files that are asked for, and the shift of both. */
-function takePicks(scene) {
+/** Takes [observed] out of a scene: lines, names of files that are asked for, the shift of both, and the picture with its place. */
+function takeObserved(scene) {
   const observed = typeof scene.observed === "object" ? scene.observed : {};
   const shift = Number(observed.shift_x_m ?? faultShift(scene)) || 0, asked = {};
   const good = faultsBySchema(schema.properties.observed, observed).length === 0;
   const lines = {horizons: good ? observed.horizon_lines || [] : [], faults: good ? observed.fault_lines || [] : []};
   for (const kind of pickKinds) if (good && observed[kind]) asked[kind] = observed[kind];
+  if (good && observed.picture) asked.picture = {name: observed.picture, corners: observed.corners_m?.length === 4 ? observed.corners_m : null};
   if (good) delete scene.observed;
   return {shift, asked, lines};
 }
@@ -43,6 +44,7 @@ function shiftOfPicks() { return kindsInFiles().length ? page.state.asked.shift 
 function missingFiles() {
   const {asked, scene} = page.state, table = scene.detachment, names = kindsInFiles().map(kind => asked[kind]);
   if (table?.csv || table?.svg) names.push(table.csv || table.svg);
+  if (asked.picture) names.push(asked.picture.name);
   return names;
 }
 
@@ -121,6 +123,7 @@ function takePicture(state, picture, corners) {
   const {length, distance} = settings(), across = length + distance, {width, height} = picture;
   const [x0, z0, x1, z1] = corners || [0, 0, across, across * height / width];
   page.pictureImage = picture;
+  delete state.asked.picture;
   state.picture = (corners ? [0, 1] : [0.1, 0.9]).map(share =>
     ({px: share * width, py: share * height, x: x0 + share * (x1 - x0), depth: z0 + share * (z1 - z0)}));
 }
@@ -133,9 +136,10 @@ async function takeFiles(files) {
       else if (order(file) === 1) takeCsv(await file.text(), file.name);
       else if (/\.svg$/i.test(file.name)) tell(`${file.name}: a drawing is fitted by the program: listric draw my.toml with svg = "${file.name}"`);
       else {
-        const picture = await readPicture(file);
-        change("", state => takePicture(state, picture));
+        const picture = await readPicture(file), asked = page.state.asked.picture;
+        change("", state => takePicture(state, picture, asked?.corners));
         setTool("picture");
+        if (asked?.corners) tell(`${file.name} lies where the scene has ${asked.name}.`);
       }
     } catch (error) {
       tell(error.message);
@@ -159,17 +163,39 @@ function takeSceneFile(text, name) {
   if (missing.length) tell(`${name} names ${missing.join(" and ")}. Drop ${missing.length > 1 ? "them" : "it"} here, too; or begin with: listric draw ${name}`);
 }
 
-/** The scene with picks as files of their own beside it. */
+/** The scene with picks and picture as files beside it. */
 function sceneText() {
   const scene = structuredClone(page.state.scene), {asked} = page.state, shift = shiftOfPicks(), observed = {};
   for (const kind of pickKinds) if (hasPicks(kind) || asked[kind]) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
-  if (Object.keys(observed).length) scene.observed = {...observed, ...(shift || faultShift(scene) ? {shift_x_m: shift} : {})};
+  if (Object.keys(observed).length && (shift || faultShift(scene))) observed.shift_x_m = shift;
+  Object.assign(observed, pictureKeys());
+  if (Object.keys(observed).length) scene.observed = observed;
   return `# Drawn with ${facts.program}.\n\n${writeToml(scene, schema)}`;
+}
+
+/** Where the picture lies, as [observed] has it. */
+function pictureKeys() {
+  const picture = pictureNow(), {asked} = page.state;
+  if (picture) return {picture: picture.file || picture.name, corners_m: cornersOf(picture).map(x => roundLength(x, placeDecimals() + 2))};
+  return asked.picture ? {picture: asked.picture.name, ...(asked.picture.corners ? {corners_m: asked.picture.corners} : {})} : {};
 }
 
 function picksFile(kind) { return `${baseName()}-${kind}.csv`; }
 
-function baseName() { return (page.state.scene.name || page.state.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
+/** Name of what is saved: as typed, else the scene's; names of shipped scenes stay with them. */
+function baseName() {
+  const {saveAs, scene, file} = page.state;
+  const name = (saveAs || scene.name || file.replace(/\.toml$/i, "") || "drawn").replace(/[^\p{L}\p{N}_.-]+/gu, "-");
+  return facts.shelf.includes(name.toLowerCase()) ? `${name}-drawn` : name;
+}
+
+/** The call that runs what is saved: at standard where that takes less than five minutes, since draft traces few faults. */
+function runCall() {
+  const {accuracy} = page.state.scene, call = `listric run ./${baseName()}.toml`, {draft, standard} = page.seconds;
+  if (accuracy) return call;
+  if (!(standard >= 300)) return `${call} --accuracy standard`;
+  return `${call} --accuracy draft (about ${duration(draft)}; draft traces few faults, standard takes about ${duration(standard)})`;
+}
 
 /** Picks as the program reads them, which adds the shift; lines of one name are its pieces. */
 function picksText(kind) {
@@ -199,8 +225,9 @@ function save() {
   page.saved = true;
   download(`${baseName()}.toml`, sceneText(), "application/toml");
   if (!$("save_picks").disabled) savePicks();
-  tell(`Saved ${baseName()}.toml. Next: listric check ${baseName()}.toml, then listric run ${baseName()}.toml --accuracy draft` +
-    (missing.length ? `. It needs ${missing.join(" and ")} beside it.` : "") + replaced.join(""));
+  const beside = [...missing, ...(pictureNow() && !pictureNow().file ? [pictureNow().name] : [])];
+  tell(`Saved ${baseName()}.toml. Next: listric check ./${baseName()}.toml, then ${runCall()}` +
+    (beside.length ? `. It needs ${beside.join(" and ")} beside it.` : "") + replaced.join(""));
 }
 
 function savePicks() {

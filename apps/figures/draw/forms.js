@@ -59,19 +59,19 @@ class Forms {
   }
 
   addTable(name, title, doc, keys, isPart) {
-    const details = element("details", {className: "table", open: ["", "hanging_wall", "extension"].includes(name)});
-    const summary = element("summary");
+    const details = element("details", {open: ["", "hanging_wall", "extension"].includes(name)});
+    const table = element("div", {className: "table"}), summary = element("summary", {}, element("b", {}, title), ` ${doc}`);
     if (!isPart) {
-      const box = element("input", {type: "checkbox", id: `on_${name}`});
+      const box = element("input", {type: "checkbox", id: `on_${name}`, className: "switch"});
       box.setAttribute("aria-label", `${title} is on`);
       box.onchange = () => this.toggle(name, box.checked);
-      summary.append(box, " ");
+      table.append(box);
     }
-    summary.append(element("b", {}, title), ` ${doc}`);
     details.append(summary);
-    this.tables.set(name, details);
+    table.append(details);
+    this.tables.set(name, table);
     for (const key of keys) details.append(this.fieldOf(name ? `${name}.${key}` : key));
-    this.host.append(details);
+    this.host.append(table);
   }
 
   fieldOf(path) {
@@ -130,10 +130,10 @@ class Forms {
 
   /** Shows a scene and what is wrong with it; a text that is refused stays. */
   show(scene, faults) {
-    for (const [name, details] of this.tables) {
-      const isOn = name === "" || name in scene, box = details.querySelector("summary input");
-      details.classList.toggle("off", !isOn);
-      details.classList.toggle("bad", name !== "" && faults.some(({path}) => path === name || path.startsWith(`${name}.`)));
+    for (const [name, table] of this.tables) {
+      const isOn = name === "" || name in scene, box = table.querySelector(".switch");
+      table.classList.toggle("off", !isOn);
+      table.classList.toggle("bad", name !== "" && faults.some(({path}) => path === name || path.startsWith(`${name}.`)));
       if (box) box.checked = isOn;
     }
     for (const [path, one] of this.fields) {
@@ -155,7 +155,7 @@ class Forms {
   /** Shows fields whose texts hold all words; returns how many. */
   filter(words) {
     let count = 0;
-    for (const [name, details] of this.tables) {
+    for (const [name, table] of this.tables) {
       let here = 0;
       for (const [path, {field, text}] of this.fields) {
         if ((path.includes(".") ? path.split(".")[0] : "") !== name) continue;
@@ -164,8 +164,8 @@ class Forms {
         field.style.display = fits ? "" : "none";
         here += fits;
       }
-      details.style.display = here ? "" : "none";
-      if (words.length && here) details.open = true;
+      table.style.display = here ? "" : "none";
+      if (words.length && here) table.querySelector("details").open = true;
       count += here;
     }
     return count;

@@ -30,10 +30,40 @@ function moveHandle(state, key, p) {
   }
 }
 
+const touches = new Map(); // pointers that are down, by their number
+
+/** Two fingers: how far they are from each other, and their middle. */
+function pinchNow() {
+  const [a, b] = touches.values();
+  return {width: Math.hypot(a.column - b.column, a.row - b.row), column: (a.column + b.column) / 2, row: (a.row + b.row) / 2};
+}
+
+/** The second finger ends what the first one drags. */
+function startPinch() {
+  if (page.drag?.key) page.state = page.drag.before;
+  page.drag = null;
+  page.pinch = pinchNow();
+}
+
+function goOnPinching() {
+  if (touches.size < 2) return;
+  const {pinch, section} = page, now = pinchNow(), box = section.svg.getBoundingClientRect();
+  section.zoom(now.width / Math.max(pinch.width, 1), {column: pinch.column - box.left, row: pinch.row - box.top});
+  section.view.left -= (now.column - pinch.column) / section.view.scale;
+  section.view.top -= (now.row - pinch.row) / section.view.scale / section.view.height;
+  page.pinch = now;
+  drawSoon();
+}
+
 function startDrag(event) {
   const handle = event.target.closest(".handle"), section = page.section;
   if (event.button) return;
   section.svg.setPointerCapture(event.pointerId);
+  touches.set(event.pointerId, {column: event.clientX, row: event.clientY});
+  if (touches.size > 1) {
+    startPinch();
+    return;
+  }
   const at = section.at(event);
   if (handle) {
     const matrix = handle.transform.baseVal[0].matrix, place = section.metres(matrix.e, matrix.f);
@@ -47,6 +77,8 @@ function startDrag(event) {
 
 function goOnDragging(event) {
   const {drag, section} = page;
+  if (touches.has(event.pointerId)) touches.set(event.pointerId, {column: event.clientX, row: event.clientY});
+  if (page.pinch) goOnPinching();
   if (!drag) return;
   if (drag.key) {
     const at = section.at(event);
@@ -82,6 +114,8 @@ function drawSoon() {
 
 function endDrag(event) {
   const {drag} = page;
+  touches.delete(event.pointerId);
+  if (!touches.size) page.pinch = null;
   page.drag = null;
   if (!drag) return;
   if (drag.key && drag.moved) {

@@ -65,7 +65,8 @@ function addListeners() {
   on("open", () => $("file").click());
   on("choose_picture", () => $("file").click());
   on("file", () => takeFiles($("file").files).then(() => { $("file").value = ""; }), "onchange");
-  on("drop_picture", () => { page.pictureImage = null; showAll(); });
+  on("drop_picture", () => change("", state => { page.pictureImage = null; delete state.asked.picture; }));
+  on("save_as", () => change("", state => { state.saveAs = $("save_as").value.trim().replace(/\.toml$/i, ""); }), "onchange");
   on("add", () => addHere());
   on("add_pick", () => addHere());
   on("remove", removeHere);
@@ -115,10 +116,10 @@ async function begin() {
   page.section.view.height = Number($("height").value);
   addListeners();
   if (facts.picture) {
-    const {image, name, corners_m: corners} = facts.picture, shown = new Image();
+    const {image, name, file, corners_m: corners} = facts.picture, shown = new Image();
     shown.src = image;
     const isGood = await shown.decode().then(() => true, () => false);
-    if (isGood) takePicture(page.state, {image, name, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
+    if (isGood) takePicture(page.state, {image, name, file, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
     if (!corners || !isGood) setTool("picture");
     if (!isGood) page.badPicture = `${name}: is damaged, or no picture that a browser reads; choose another`;
   }

@@ -3,10 +3,10 @@
 const facts = dataOf("data"), schema = dataOf("schema");
 
 /** A state is what undo goes back to: the scene's document with its file's name, the paths of numbers that were written as
- * floats and the files of picks that it names; picks, and where the picture is. */
+ * floats and the files that it names; picks, where the picture is, and the name to save it by, if one was typed. */
 const page = {
-  state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null},
-  past: [], future: [], pictureImage: null,
+  state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null, saveAs: ""},
+  past: [], future: [], pictureImage: null, seconds: {},
   tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {},
 };
 

@@ -123,7 +123,9 @@ function showCost() {
     other.accuracy = level.name;
     if (!here) delete other.hanging_wall?.mean_radius_m;
     if (!here) delete other.extension?.speed_m_per_s;
-    const cost = page.chain ? predictCost(facts, schema, other) : null, radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
+    const cost = page.chain ? predictCost(facts, schema, other) : null;
+    page.seconds[level.name] = cost?.seconds;
+    const radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
     if (here) page.cost = cost;
     row.className = here ? "chosen" : "";
     row.querySelector("input").checked = here;
@@ -264,7 +266,7 @@ function showReferences() {
   })));
   const decimals = placeDecimals(), corners = cornersOf(picture).map(x => x.toFixed(decimals)).join(",");
   picture.points.forEach((p, k) => ["x", "depth"].forEach(key => { $(`reference_${"ab"[k]}_${key}`).value = Number(p[key].toFixed(1 + decimals)); }));
-  $("corners").textContent = `Later, over the run: listric figures DIR --underlay ${picture.name} --corners ${corners}`;
+  $("corners").textContent = `Corners: ${corners}. The saved scene has them. Later, over the run: listric figures DIR --underlay ${picture.file || picture.name}`;
 }
 
 function showState() {
@@ -273,7 +275,7 @@ function showState() {
   const place = path => page.fresh && lines?.has(path) ? `line ${lines.get(path)}: ` : "";
   box.textContent = faults.length
     ? faults.slice(0, 6).map(({path, message}) => `${place(path)}${path}: ${message}`).join("\n") + (faults.length > 6 ? `\nand ${faults.length - 6} more` : "")
-    : `Correct: listric check accepts this scene. ${page.cost ? `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.` : ""}`;
+    : `This page finds no fault in what it tests: forms, pieces, depth and number of discs. listric check ./${baseName()}.toml decides. ${page.cost ? `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.` : ""}`;
   page.forms.show(page.state.scene, faults);
   return faults;
 }
@@ -293,6 +295,8 @@ function showAll() {
   $("redo").disabled = !page.future.length;
   $("save_picks").disabled = !picks.horizons.length && !picks.faults.length;
   $("key_steps").textContent = keyStepsText();
+  $("save_as").placeholder = baseName();
+  $("save_as").value = page.state.saveAs;
   showExtension(distance);
   for (const tool of ["fault", "picks", "picture"]) $(`panel_${tool}`).hidden = page.tool !== tool;
   showSection();

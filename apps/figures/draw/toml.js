@@ -8,6 +8,9 @@ class TomlError extends Error {
   }
 }
 
+/** Without a prototype: `__proto__` is a key like any other. */
+const newTable = () => Object.create(null);
+
 /** An integer that a number of JavaScript cannot hold stays exact. */
 function integerOf(digits, base) {
   const sign = digits.startsWith("-") ? -1n : 1n, bare = digits.replace(/^[+-]/, "").replace(/_/g, "");
@@ -32,6 +35,11 @@ class TomlReader {
     this.floats = new Set();   // paths of numbers that are written as such
     this.closed = new Set();   // tables that no header may open again, and arrays and inline tables
     this.dotted = new Set();
+    const control = /[\x00-\x08\x0b-\x1f\x7f]/.exec(this.text);
+    if (control) {
+      this.at = control.index;
+      this.fail(`has the control character U+${control[0].charCodeAt(0).toString(16).toUpperCase().padStart(4, "0")}; TOML has it as an escape alone`);
+    }
   }
 
   get line() { return this.text.slice(0, this.at).split("\n").length; }
@@ -83,7 +91,11 @@ class TomlReader {
   unescaped(text) {
     const short = {b: "\b", t: "\t", n: "\n", f: "\f", r: "\r", '"': '"', "\\": "\\"};
     return text.replace(/\\(u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8}|[\s\S])/g, (all, code) => {
-      if (code.length > 1) return String.fromCodePoint(parseInt(code.slice(1), 16));
+      if (code.length > 1) {
+        const point = parseInt(code.slice(1), 16);
+        if (point > 0x10ffff || point >= 0xd800 && point < 0xe000) this.fail(`${all} is no character`);
+        return String.fromCodePoint(point);
+      }
       if (!(code in short)) this.fail(`${all} is no escape`);
       return short[code];
     });
@@ -139,7 +151,7 @@ class TomlReader {
 
   inlineTable(path) {
     ++this.at;
-    const table = {};
+    const table = newTable();
     this.blanks();
     if (this.take(/\}/y)) return table;
     for (;;) {
@@ -158,7 +170,7 @@ class TomlReader {
       path = path ? `${path}.${key}` : key;
       if (Object.hasOwn(table, key) && !this.dotted.has(table[key])) this.fail(`${path} is there twice`);
       if (!Object.hasOwn(table, key)) {
-        table[key] = {};
+        table[key] = newTable();
         this.dotted.add(table[key]);
         this.lines.set(path, line);
       }
@@ -183,13 +195,13 @@ class TomlReader {
       const last = k === keys.length - 1;
       path = path ? `${path}.${key}` : key;
       if (!Object.hasOwn(table, key)) {
-        table[key] = last && isArray ? [] : {};
+        table[key] = last && isArray ? [] : newTable();
         this.lines.set(path, line);
       } else if (this.closed.has(table[key]) || typeof table[key] !== "object" || this.dotted.has(table[key]) && last ||
         last && isArray !== Array.isArray(table[key])) {
         this.fail(`${path} is there twice`);
       }
-      if (last && isArray) table[key].push({});
+      if (last && isArray) table[key].push(newTable());
       if (last && !isArray) {
         if (this.opened.has(table[key])) this.fail(`[${path}] is there twice`);
         this.opened.add(table[key]);
@@ -200,7 +212,7 @@ class TomlReader {
   }
 
   document() {
-    const root = {};
+    const root = newTable();
     this.opened = new Set();
     let table = root, path = "";
     for (;;) {

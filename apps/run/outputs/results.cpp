@@ -4,7 +4,9 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
+#include "apps/run/prediction.hpp"
 #include "apps/run/run_view.hpp"
+#include "apps/scene/accuracy.hpp"
 
 #include <fmt/format.h>
 
@@ -34,6 +36,23 @@ std::vector<std::string> results_of(RunView& run) {
     return result_lines(results);
 }
 
+/// The call to make next where draft, which traces few faults, has traced none; empty: another.
+std::string advice_on_faults(RunView& run) {
+    const auto level = [](std::string_view name) {
+        return *std::ranges::find(accuracy_levels(), name, &AccuracyLevel::name);
+    };
+    const Scene& scene = run.scene;
+    if (scene.accuracy != "draft" || !run.parts.detection_circle || !run.faults().faults.empty() ||
+        scene.hanging_wall.mean_radius != level("draft").mean_radius)
+        return {};
+    Scene finer = scene;
+    finer.hanging_wall.mean_radius = level("standard").mean_radius;
+    finer.extension.speed = level("standard").speed;
+    return fmt::format(
+        "draft traces few faults: run it with --accuracy standard, about {}",
+        rough_duration(predict(finer).work / predict(scene).work * run.wall_seconds()));
+}
+
 /// The best view of them that there is.
 std::string place_to_look(const RunView& run) {
     std::error_code error;
@@ -50,6 +69,8 @@ void say(RunView& run) {
         run.log.say("  " + line);
     run.log.repeat_warnings();
     run.log.say("look: " + place_to_look(run));
+    if (const std::string advice = advice_on_faults(run); !advice.empty())
+        run.log.say(advice);
 }
 
 } // namespace
