@@ -43,7 +43,7 @@ struct RunCall {
     CLI::Option* threads = nullptr;
     std::string ranks; ///< --ranks; empty: not given
     bool force_size = false;
-    bool no_report = false;
+    bool no_report = false, no_figures = false;
 };
 
 /// A number of processes; none for "all", as many as were started together, and where there is
@@ -95,6 +95,7 @@ RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
         options.threads = 1;
     options.output = output_of(call, scene.name);
     options.report = !call.no_report;
+    options.figures = !call.no_figures;
     return options;
 }
 
@@ -240,6 +241,7 @@ Command add_run(CLI::App& program) {
     command->add_flag("--live", call->options.live,
                       "write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "write no report.html");
+    command->add_flag("--no-figures", call->no_figures, "draw no figures");
     add_asked_accuracy(*command, call->asked);
     add_quiet(*command, call->options.quiet);
     return {command, [call] { return run(*call); }};

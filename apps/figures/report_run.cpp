@@ -1,6 +1,7 @@
 #include "apps/figures/report_run.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -56,7 +57,7 @@ struct ReadRun {
 ReadRun opened(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to report on; is this a run's folder?");
-    RunFolder folder(output);
+    RunFolder folder = shown_run(output);
     RunHistory history(folder);
     return {std::move(folder), std::move(history)};
 }

@@ -44,8 +44,9 @@ MemoryError memory_error(const Scene& scene) {
 
 RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList outputs) {
     const fs::path& output = options.output;
-    const auto lock = take_output(folder_use(scene, options.end(scene.extension.distance)), output,
-                                  options.existing());
+    FolderUse use = folder_use(scene, options.end(scene.extension.distance));
+    use.with_report = options.report && scene.output.report;
+    const auto lock = take_output(use, output, options.existing());
     if (!lock)
         return RunOutcome::finished;
 

@@ -345,7 +345,7 @@ void run_flexure(const FlexurePlan& plan, const RunOptions& options) {
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();
     try {
-        draw_flexure(output, {.provenance = json["provenance"]});
+        draw_flexure(output, output / "figures", {.provenance = json["provenance"]});
     } catch (const std::exception& error) {
         log.say(std::string("warning: no figure: ") + error.what());
     }

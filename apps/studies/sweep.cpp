@@ -19,6 +19,7 @@
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/text.hpp"
+#include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,6 +83,8 @@ public:
     bool carry_out() {
         const std::vector<SweepRow> rows = request_.merge.empty() ? make() : merge();
         write_text(output_ / "sweep.csv", to_csv(plan_, points_, rows));
+        if (!request_.merge.empty())
+            warn_of_versions(rows);
         const auto failed =
             std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); });
         log_.say(fmt::format("{}: {} runs{}", (output_ / "sweep.csv").string(), rows.size(),
@@ -130,6 +133,25 @@ private:
                                          file.string(), shown(differs->parameter),
                                          shown(differs->one), shown(differs->other),
                                          request_.plan.string()));
+        const std::string state = text_at(object_in(row.folder / "summary.json"), "state_hash");
+        if (!state.empty() && state != row.state_hash)
+            throw UsageError(
+                fmt::format("--merge: {}: is newer than its row in {}: make that "
+                            "task's table again, by its call with --task",
+                            (row.folder / "summary.json").string(),
+                            (row.folder / "../../sweep.csv").lexically_normal().string()));
+    }
+
+    /// Tells of rows that other versions have made.
+    void warn_of_versions(const std::vector<SweepRow>& rows) {
+        std::set<std::string> makers;
+        for (const SweepRow& row : rows)
+            if (!row.failed() && row.made_by != version)
+                makers.insert(row.made_by);
+        if (!makers.empty())
+            log_.say(fmt::format("warning: not all runs are of this version, {}: some are by {} "
+                                 "(column made_by); numbers may differ",
+                                 version, fmt::join(makers, "; ")));
     }
 
     /// The rows that are asked for, seeds of a point together: their packings differ, so that runs

@@ -82,9 +82,10 @@ private:
         try {
             const RunFolder folder(run.options.output, run.scene);
             if (run.parts.base_moves)
-                draw_base(folder, {.provenance = provenance(run.scene)});
+                draw_base(folder, folder.output, folder.output / "figures",
+                          {.provenance = provenance(run.scene)});
             draw_wells(folder, std::span(&folder.snapshots.back(), 1), {},
-                       {.provenance = provenance(run.scene)});
+                       folder.output / "figures", {.provenance = provenance(run.scene)});
             draw_experiment(folder, run.past);
         } catch (const std::exception& failure) {
             warn(run, failure.what());
