@@ -68,11 +68,11 @@ void require_same_scene(const std::map<std::string, std::string>& now, const std
     const auto differs = scene_difference(scene_values(text), now);
     if (!differs)
         return;
+    const auto [there, here] = shown_apart(differs->one, differs->other);
     throw UsageError(fmt::format("{}: the run to resume has other parameters: {} = {} there, {} in "
                                  "this call; resume it with the parameters that it began with, "
                                  "begin again with --force, or elsewhere with --output",
-                                 file.string(), shown(differs->parameter), shown(differs->one),
-                                 shown(differs->other)));
+                                 file.string(), shown(differs->parameter), there, here));
 }
 
 /// All that a resumed run would take for its own must be of this scene.

@@ -103,10 +103,10 @@ void require_same_run(const fs::path& snapshot, const std::string& holds,
         scene_difference(scene_values(holds), scene_values(scene), SceneScope::results);
     if (!differs)
         return;
+    const auto [there, in_rest] = shown_apart(differs->one, differs->other);
     throw UsageError(fmt::format("{}: another run has made it: {} = {} there, {} in the rest of "
                                  "the folder; take it away, or what it was copied over",
-                                 snapshot.string(), shown(differs->parameter), shown(differs->one),
-                                 shown(differs->other)));
+                                 snapshot.string(), shown(differs->parameter), there, in_rest));
 }
 
 namespace {

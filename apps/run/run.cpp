@@ -36,8 +36,9 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
 }
 
 MemoryError memory_error(const Scene& scene) {
-    return MemoryError(fmt::format("memory is short: the run needs about {:.0f} MB",
-                                   std::ceil(predict(scene).memory / 1e6)));
+    return MemoryError(fmt::format("memory is short: the run needs about {:.0f} MB{}",
+                                   std::ceil(predict(scene).memory / 1e6),
+                                   words_of_address_limit()));
 }
 
 } // namespace

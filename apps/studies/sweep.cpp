@@ -17,6 +17,7 @@
 #include "apps/studies/sweep_table.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/text.hpp"
 #include "apps/support/version.hpp"
@@ -128,11 +129,12 @@ private:
         const auto differs = there.empty() ? std::nullopt
                                            : scene_difference(scene_values(there),
                                                               scene_values(to_toml(scene_of(row))));
-        if (differs)
+        if (differs) {
+            const auto [there_is, asked] = shown_apart(differs->one, differs->other);
             throw UsageError(fmt::format("--merge: {}: is of another plan: {} = {} there, {} in {}",
-                                         file.string(), shown(differs->parameter),
-                                         shown(differs->one), shown(differs->other),
+                                         file.string(), shown(differs->parameter), there_is, asked,
                                          request_.plan.string()));
+        }
         const std::string state = text_at(object_in(row.folder / "summary.json"), "state_hash");
         if (!state.empty() && state != row.state_hash)
             throw UsageError(
@@ -276,7 +278,7 @@ private:
         try {
             draw_sheet(rows);
         } catch (const std::exception& error) {
-            log_.say(std::string("warning: no sheet.png: ") + error.what());
+            log_.say(std::string("warning: no sheet.png: ") + words_of(error));
         }
     }
 

@@ -35,6 +35,11 @@ std::string cell(std::string text) {
     return text;
 }
 
+std::string replaced_once(std::string text, std::string_view what, std::string_view by) {
+    const std::size_t at = text.find(what);
+    return at == text.npos ? text : text.replace(at, what.size(), by);
+}
+
 /// Whether values go up by factors, as those of permeability do: three or more, the greatest at
 /// least a hundred times the least, their median nearer to the ends' geometric than to their
 /// arithmetic mean. Samples of a range go up by differences.
@@ -76,6 +81,11 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
         throw UsageError(fmt::format("{}: is of another plan: {}", file.string(), line));
     };
     const std::string first = header(plan), found = text.substr(0, text.find('\n'));
+    if (found == replaced_once(first, ",made_by", ""))
+        throw UsageError(fmt::format("{}: an earlier version made it, which did not say so (it has "
+                                     "no column made_by): make that task's table again, by its "
+                                     "call with --task",
+                                     file.string()));
     if (found != first)
         refuse(shown_start(found, 200));
     const auto all = static_cast<std::size_t>(1 + std::ranges::count(first, ','));

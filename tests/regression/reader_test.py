@@ -248,7 +248,7 @@ class Reader(unittest.TestCase):
         kept = sorted(folder.rglob("*"))
         first = listric.Run(folder).plot("strain", at=90.0)
         self.assertEqual(sorted(folder.rglob("*")), kept)  # asking leaves nothing behind
-        listric.call("figures", folder, "--at", "90")
+        listric.call("figures", folder, "--at", "90m")
         drawn, = (folder / "figures").glob("strain-*.png")
         self.assertEqual(first._repr_png_(), drawn.read_bytes())
         with self.fails(listric.UnknownName, "did you mean strain"):
@@ -311,7 +311,7 @@ class Reader(unittest.TestCase):
 
         before = names()
         self.assertEqual(before[0], "depocentre")
-        for words in (("--x", "1km"), ("--x", "1km,1500"), ("--at", "200")):
+        for words in (("--x", "1km"), ("--x", "1km,1500m"), ("--at", "200m")):
             listric.call("export", "well", folder, *words)
             self.assertEqual(names(), before)
         listric.call("export", "well", folder)
