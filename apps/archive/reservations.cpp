@@ -1,5 +1,6 @@
 #include "apps/archive/reservations.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/summary.hpp"
@@ -24,47 +25,57 @@ namespace {
 
 constexpr std::size_t most_of_page = 200'000'000; // bytes; a report has 20 MB at most, unless asked
 
-void add_makers(std::vector<std::string>& said, const std::string& makers) {
-    if (makers != version)
-        said.push_back(fmt::format("listric {} has made it, and this is {}: what a new run gives "
-                                   "may differ",
-                                   makers.empty() ? "of a version that is not recorded" : makers,
-                                   version));
+std::string of_makers(const std::string& makers) {
+    return fmt::format("listric {} has made it, and this is {}: what a new run gives may differ",
+                       makers.empty() ? "of a version that is not recorded" : makers, version);
+}
+
+/// Whether a summary is of the moment of the newest snapshot, to a cycle.
+bool is_of_moment(const JsonObject& summary, double end, double newest) {
+    constexpr double rounding = 0.02; // m, of a snapshot's name
+    return std::abs(end - newest) <= rounding + 2.0 * cycle_of(summary);
+}
+
+/// Versions that made a run so far, by its newest snapshot; empty: it cannot be read.
+std::string makers_so_far(const fs::path& newest) {
+    try {
+        RunRecord record = read_run_record(newest);
+        record.earlier_versions.push_back(record.written_by);
+        return fmt::format("{}", fmt::join(record.earlier_versions, ", "));
+    } catch (const std::runtime_error&) {
+        return "";
+    }
 }
 
 } // namespace
 
-std::vector<std::string> reservations(const JsonObject& summary, const std::string& scene) {
+std::vector<std::string> reservations(const fs::path& output, bool tells_makers) {
+    const fs::path file = output / "summary.json";
+    const std::vector<fs::path> snapshots = list_snapshots(output);
+    const double newest = snapshots.empty() ? 0.0 : snapshot_extension(snapshots.back());
+    const JsonObject summary = object_in(file);
     std::vector<std::string> said;
-    add_makers(said, makers_of(summary));
-    if (!is_of_scene(summary, scene))
+    std::string makers = makers_of(summary);
+    std::error_code error;
+    if (summary.empty()) {
+        said.push_back(fs::exists(file, error)
+                           ? "summary.json is damaged: listric run --resume makes it again"
+                           : fmt::format("the run has not ended, it has come to {:g} m: listric "
+                                         "run --resume goes on",
+                                         newest));
+        makers = snapshots.empty() ? "" : makers_so_far(snapshots.back());
+        tells_makers = tells_makers && !makers.empty();
+    }
+    if (!is_of_scene(summary, read_text_if_there(output / "scene.toml")))
         said.emplace_back("summary.json is of another request than scene.toml: one of them has "
                           "been changed or copied; listric run --force makes both");
-    return said;
-}
-
-std::vector<std::string> reservations(const RunFolder& run) {
-    const fs::path file = run.output / "summary.json";
-    const JsonObject summary = object_in(file);
-    const double last = snapshot_extension(run.moments.snapshots.back());
-    if (!summary.empty()) {
-        auto said = reservations(summary, read_text_if_there(run.output / "scene.toml"));
-        const auto end = summary_travel(file);
-        if (end && std::abs(*end - last) > 0.01 * run.scene.output.interval)
-            said.push_back(fmt::format("summary.json is of {:g} m, the newest snapshot of {:g} m: "
-                                       "listric run --resume makes it again",
-                                       *end, last));
-        return said;
-    }
-    std::vector<std::string> said;
-    std::error_code error;
-    said.push_back(fs::exists(file, error)
-                       ? "summary.json is damaged: listric run --resume makes it again"
-                       : fmt::format("the run has not ended, it has come to {:g} m: listric run "
-                                     "--resume goes on",
-                                     last));
-    if (!run.moments.makers.empty())
-        add_makers(said, fmt::format("{}", fmt::join(run.moments.makers, ", ")));
+    const auto end = summary_travel(file);
+    if (end && !snapshots.empty() && !is_of_moment(summary, *end, newest))
+        said.push_back(fmt::format("summary.json is of {:g} m, the newest snapshot of {:g} m: "
+                                   "listric run --resume makes it again",
+                                   *end, newest));
+    if (tells_makers && makers != version)
+        said.push_back(of_makers(makers));
     return said;
 }
 
@@ -85,7 +96,7 @@ void make_result_folder(const fs::path& folder) {
 
 RunFolder shown_run(const fs::path& output) {
     RunFolder run(output);
-    warn_of(output, reservations(run));
+    warn_of(output, reservations(output));
     return run;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/archive/json_file.hpp"
 #include "apps/archive/run_folder.hpp"
 
 #include <filesystem>
@@ -12,12 +11,9 @@ namespace listric::archive {
 /// What whoever shows or uses a run must know of it first, a sentence each: another version of the
 /// program has made it, it has not ended, or its files are not of one run and one moment. None: the
 /// run is whole, and this program's.
-std::vector<std::string> reservations(const RunFolder& run);
-
-/// Those that its summary.json alone tells.
-/// @param scene  text of the run's scene.toml
-/// @param scene  text of the run's scene.toml; empty: of a run without one
-std::vector<std::string> reservations(const JsonObject& summary, const std::string& scene);
+/// @param tells_makers  false: for calls that tell the versions themselves
+std::vector<std::string> reservations(const std::filesystem::path& output,
+                                      bool tells_makers = true);
 
 /// Tells them to the user.
 void warn_of(const std::filesystem::path& output, const std::vector<std::string>& reservations);

@@ -1,12 +1,12 @@
 #include "apps/archive/headline.hpp"
 #include "apps/archive/provenance.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/differences.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/text.hpp"
 
@@ -107,14 +107,6 @@ std::vector<Row> program_rows(const Side& a, const Side& b) {
                                                second.empty() ? "unknown" : second, ""}};
 }
 
-/// Warns of a run whose summary is of another scene than its own.
-void warn_of_request(const Side& side) {
-    if (!archive::is_of_scene(side.summary, read_text_if_there(side.run / "scene.toml")))
-        warn(fmt::format("{}: summary.json is of another request than scene.toml: its results may "
-                         "be of another run",
-                         shown(side.name)));
-}
-
 std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
     const auto text = [](const std::optional<double>& value) {
         return value ? fmt::format("{:.5g}", *value) : "-";
@@ -151,11 +143,7 @@ std::optional<std::pair<std::string, std::string>> newest_state(const Side& side
 /// Rows of runs of which one or both have no readable summary: their newest states.
 /// @param looked  whether there were two to compare
 std::vector<Row> state_rows(const Side& a, const Side& b, bool& looked) {
-    for (const Side* side : {&a, &b})
-        if (side->summary.empty())
-            warn(fmt::format(
-                "{} has no summary.json that can be read: the newest snapshots are compared",
-                shown(side->name)));
+    warn("the newest snapshots are compared");
     const auto first = newest_state(a), second = newest_state(b);
     looked = first && second;
     std::vector<Row> rows;
@@ -172,7 +160,7 @@ ExitCode compare(const std::string& first, const std::string& second) {
     std::string text = table_text("parameter", parameter_rows(a, b));
     for (const Side* side : {&a, &b})
         if (!side->run.empty())
-            warn_of_request(*side);
+            archive::warn_of(side->name, archive::reservations(side->run, false));
     if (!a.run.empty() && !b.run.empty())
         text += table_text("program", program_rows(a, b));
     if (!a.summary.empty() && !b.summary.empty())

@@ -1,4 +1,5 @@
 #include "apps/run/run.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/scene_lines.hpp"
 #include "apps/commands/asked_accuracy.hpp"
 #include "apps/commands/command.hpp"
@@ -162,7 +163,13 @@ ExitCode run_alone(const RunCall& call) {
     }
     const Scene scene = scene_of(call);
     check_scene(call, scene, false);
-    return exit_code_of(run_scene(scene, options_of(call, scene, false)));
+    const RunOptions options = options_of(call, scene, false);
+    const fs::path summary = options.output / "summary.json";
+    const std::string before = read_text_if_there(summary);
+    const ExitCode code = exit_code_of(run_scene(scene, options));
+    if (!before.empty() && before == read_text_if_there(summary)) // nothing was left to do
+        archive::warn_of(options.output, archive::reservations(options.output));
+    return code;
 }
 
 /// Takes level and speed from what was recorded. Processes that share a run must not each measure

@@ -116,8 +116,7 @@ std::string card_html(const Card& card, const fs::path& page) {
             rows += fmt::format("<tr><td title=\"{}\">{}<td>{}", html(one.key), html(one.name),
                                 html(archive::value_text(one)));
     std::string doubts;
-    for (const std::string& one :
-         archive::reservations(card.summary, read_text_if_there(card.run / "scene.toml")))
+    for (const std::string& one : archive::reservations(card.run))
         doubts += "<p>" + html(one);
     if (fs::exists(report) && !archive::is_up_to_date(report, card.run))
         doubts += "<p>the report is older than the run: listric view makes it again";
@@ -188,7 +187,7 @@ td + td {{ text-align: right; white-space: nowrap }}
 fs::path report_of(const fs::path& run) {
     const fs::path page = run / "report.html";
     if (archive::is_up_to_date(page, run)) {
-        archive::warn_of(run, archive::reservations(archive::RunFolder(run)));
+        archive::warn_of(run, archive::reservations(run));
         return page;
     }
     for (const std::string& lack : report_run({.outputs = {run}}).lacks)

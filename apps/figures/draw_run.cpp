@@ -115,7 +115,7 @@ std::vector<fs::path> draw_run(const FiguresRequest& request) {
     if (fs::exists(output / "deflection.csv", error)) {
         PictureOrder order = request.order;
         order.provenance = object_at(object_in(output / "summary.json"), "provenance");
-        warn_of(output, reservations(object_in(output / "summary.json"), ""));
+        warn_of(output, reservations(output));
         make_result_folder(pictures);
         draw_flexure(output, pictures, order);
         return written.since();

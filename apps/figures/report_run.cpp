@@ -12,6 +12,7 @@
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 
 #include <fmt/format.h>
 
@@ -101,7 +102,8 @@ public:
         try {
             const fem::Footwall* footwall = driver_->recover(snapshot.state);
             return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
-        } catch (const UsageError&) { // the mesh's file is another by now: likewise
+        } catch (const UsageError& error) { // the mesh's file is another by now: likewise
+            warn(fmt::format("the report has no stress below the base: {}", error.what()));
             driver_.reset();
             return {};
         }

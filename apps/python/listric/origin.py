@@ -37,21 +37,58 @@ def reservations(run) -> list[str]:
         said = [str(error) if ended else f"the run has not ended{last}: `listric run ... --resume` goes on"]
         made_by = newest.made_by if newest else ""
     else:
-        said, made_by = _of_summary(summary, newest, run), makers_of(summary)
+        said, made_by = [*_of_scene(summary, run.folder), *_of_moment(summary, newest)], makers_of(summary)
     program = program_version()
     if program and made_by and not is_same(made_by, program):
         said.append(f"listric {made_by} has made it, and this is {program}: what a new run gives may differ")
     return said
 
 
-def _of_summary(summary, newest, run) -> list[str]:
-    end = summary.get("travel_m", summary.get("extension_m"))
-    if newest is None or not isinstance(end, (int, float)) or "disc_steps_per_s" not in summary:
+def _of_scene(summary, folder) -> list[str]:
+    made = summary.get("provenance")
+    if not isinstance(made, dict) or "scene_hash" not in made or made.get("earlier_versions"):
         return []
-    if abs(end - newest.named_extension_m) <= 0.01 * run._interval_m():
+    with reading(folder / "scene.toml"):
+        if made["scene_hash"] == scene_hash((folder / "scene.toml").read_bytes()):
+            return []
+    return ["summary.json is of another request than scene.toml: one of them has been changed or copied; "
+            "`listric run ... --force` makes both"]
+
+
+def _of_moment(summary, newest) -> list[str]:
+    end, cycle = summary.get("travel_m", summary.get("extension_m")), summary.get("cycle")
+    if newest is None or not isinstance(end, (int, float)):
+        return []
+    step = end / cycle if isinstance(cycle, (int, float)) and cycle > 0 else 0.0
+    if abs(end - newest.named_extension_m) <= 0.02 + 2.0 * step:
         return []
     return [f"summary.json is of {end:g} m, the newest snapshot of {newest.named_extension_m:g} m: "
             "`listric run ... --resume` makes it again"]
+
+
+def scene_hash(text: bytes) -> str:
+    """Hash of every parameter in a scene.toml, as the program has it (apps/archive/provenance.cpp)."""
+    value = 1469598103934665603
+    for line in text.splitlines():
+        if (said := _without_comment(line)) and not said.startswith(b"report = "):
+            for byte in said + b"\n":
+                value = (value ^ byte) * 1099511628211 & 0xffffffffffffffff
+    return f"{value:016x}"
+
+
+def _without_comment(line: bytes) -> bytes:
+    quote, escaped = 0, False
+    for at, letter in enumerate(line):
+        if escaped:
+            escaped = False
+        elif quote:
+            escaped = quote == ord('"') and letter == ord("\\")
+            quote = 0 if letter == quote else quote
+        elif letter in b"\"'":
+            quote = letter
+        elif letter == ord("#"):
+            return line[:at].rstrip(b" ")
+    return line.rstrip(b" ")
 
 
 def makers_of(summary) -> str:

@@ -1,0 +1,186 @@
+"""Whoever shows or reuses results compares them with what made them: every reader of results is tried on those of another
+version, of another request, with an input file of other content, older than their source, unfinished, and damaged.
+Whatever is not as it should be is said. With --table it prints what each of them says (docs/record).
+"""
+
+import functools
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+from forged import run_of_another_version
+from program import NO_FIGURES, PROGRAM, SOURCES
+
+sys.path.insert(0, str(SOURCES / "apps/python"))
+os.environ["LISTRIC_PROGRAM"] = str(PROGRAM)
+import listric  # noqa: E402 it lies in the sources
+
+SCENE = """
+name = "small"
+accuracy = "draft"
+[hanging_wall]
+length_m = 30000.0
+thickness_m = 6000.0
+mean_radius_m = 400.0
+[detachment]
+csv = "fault.csv"
+[gravity]
+[bonds]
+[fault_weakening]
+[extension]
+distance_m = 30.0
+[output]
+interval_m = 10.0
+[observed]
+horizons = "picks.csv"
+"""
+FAULT = "x_m,depth_m\n0,0\n2000,2600\n5000,4800\n9000,5800\n14000,6000\n31000,6000\n"
+PICKS = "name,x_m,depth_m\ntop,1000,100\ntop,4000,120\ntop,9000,60\n"
+PLAN = 'scene = "small.toml"\nmeasures = ["discs"]\n[[vary]]\nparameter = "cycle.damping"\nvalues = [0.5]\n'
+CONDITIONS = ("other version", "other request", "other input", "older", "unfinished", "damaged")
+RUN = ("run", "small.toml", "--threads", "1", "--no-figures")
+SWEEP = ("sweep", "plan.toml", "--threads", "1", "-o")
+LABORATORY = ("laboratory", "uniaxial", "mat18-b", "--discs", "150", "--seeds", "1", "--threads", "1", "-o", "laboratory")
+
+
+class Results:
+    """A folder of results, and what is done to them."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.environment = {**os.environ, **NO_FIGURES, "XDG_CACHE_HOME": str(folder / "cache")}
+        (folder / "small.toml").write_text(SCENE)
+        (folder / "fault.csv").write_text(FAULT)
+        (folder / "picks.csv").write_text(PICKS)
+        (folder / "plan.toml").write_text(PLAN)
+        self.must(*RUN, "-o", "run", "--until", "20m")
+        self.must(*RUN, "-o", "other", "--until", "20m", "--seed", "2", "--no-report")
+        self.must("export", "horizons", "run")
+        shutil.copytree(folder / "run", folder / "longer")
+        self.must(*RUN, "-o", "longer", "--resume")
+
+    def call(self, *words):
+        """Exit code, and all that is said."""
+        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, env=self.environment, text=True, check=False,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        return done.returncode, done.stdout
+
+    def must(self, *words):
+        code, said = self.call(*words)
+        assert code == 0, f"{words}: {said}"
+
+    def spoilt(self, condition, name, of="run"):
+        """A copy of a run under a condition."""
+        run = self.folder / name
+        shutil.rmtree(run, ignore_errors=True)
+        run.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copytree(self.folder / of, run)
+        if condition == "other version":
+            run_of_another_version(run)
+        elif condition == "other request":
+            shutil.copy(self.folder / "other/summary.json", run)
+        elif condition == "other input":
+            (self.folder / "fault.csv").write_text(FAULT.replace("4800", "4900"))
+        elif condition == "older":  # a run that was extended, and killed at the end of that
+            newest = max((self.folder / ("longer" if of == "run" else of) / "snapshots").iterdir())
+            shutil.copy(newest, run / "snapshots/extension-00030.00m.h5")
+        elif condition == "unfinished":
+            (run / "summary.json").unlink()
+        elif condition == "damaged":
+            text = (run / "summary.json").read_text()
+            (run / "summary.json").write_text(text[:len(text) // 2])
+        return run
+
+    def mend_input(self):
+        (self.folder / "fault.csv").write_text(FAULT)
+
+
+def in_python(look):
+    """A reader by the package: what it warns of or raises."""
+    def read(results, run, condition):
+        del results, condition
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                look(listric.Run(run))
+            except listric.ListricError as error:
+                return 1, f"{type(error).__name__}: {error}"
+        return 0, "\n".join(f"warning: {one.message}" for one in caught)
+    return read
+
+
+def by_call(*words):
+    return lambda results, run, condition: results.call(*(run.name if word == "RUN" else word for word in words))
+
+
+def cards(results, run, condition):
+    """`listric view` without a folder, beside a folder `out`."""
+    del condition
+    out = results.folder / "out"
+    shutil.rmtree(out, ignore_errors=True)
+    shutil.move(run, out / "run")
+    code, said = results.call("view")
+    page = out / "index.html"
+    if page.exists():
+        said += re.sub(r"<style.*?</style>|<[^>]*>", " ", page.read_text(), flags=re.DOTALL)
+    return code, said
+
+
+def batch(*words, folder):
+    """A call that makes runs of its own and finds one of them spoilt."""
+    def read(results, run, condition):
+        del run
+        shutil.rmtree(results.folder / "batch", ignore_errors=True)
+        results.mend_input()
+        results.must(*words)
+        made = next(results.folder.glob(folder))
+        shutil.copytree(made, results.folder / "made")
+        results.spoilt(condition, made.relative_to(results.folder), of="made")
+        shutil.rmtree(results.folder / "made")
+        return results.call(*words)
+    return read
+
+
+READERS = {
+    "run --resume": by_call(*RUN, "--resume", "--until", "20m", "-o", "RUN"),
+    "report": by_call("report", "RUN"),
+    "figures": by_call("figures", "RUN", "--at", "10m"),
+    "export": by_call("export", "horizons", "RUN", "--at", "10m"),
+    "view DIR": by_call("view", "RUN"),
+    "view": cards,
+    "diff": by_call("diff", "RUN", "other"),
+    "cite": by_call("cite", "RUN"),
+    "sweep": batch(*SWEEP, "batch", folder="batch/runs/*"),
+    "Python summary": in_python(lambda run: run.summary),
+    "Python history": in_python(lambda run: run.history),
+    "Python snapshots": in_python(lambda run: run.snapshots),
+    "Python faults": in_python(lambda run: run.faults),
+    "Python lines": in_python(lambda run: run.snapshots[-1].lines("surfaces")),
+}
+
+
+def said_by(results, reader, condition):
+    run = results.spoilt(condition, "spoilt")
+    try:
+        return READERS[reader](results, run, condition)
+    finally:
+        results.mend_input()
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--table"]:
+        with tempfile.TemporaryDirectory() as place:
+            found = Results(Path(place))
+            for reader in sys.argv[2:] or READERS:
+                for condition in CONDITIONS:
+                    code, said = said_by(found, reader, condition)
+                    print(f"=== {reader} | {condition} | {code}\n{said[:int(os.environ.get('N', 1500))]}", flush=True)
+    else:
+        unittest.main()
