@@ -8,7 +8,7 @@
 
 namespace listric::archive {
 
-/// What whoever shows or uses a run must know of it first, a sentence each: another version of the
+/// Reservations of a run for those who show or use it, a sentence each: another version of the
 /// program has made it, it has not ended, or its files are not of one run and one moment. None: the
 /// run is whole, and this program's.
 /// @param tells_makers  false: for calls that tell the versions themselves

@@ -12,7 +12,7 @@ void note_memory_need(double bytes);
 /// Size that was noted last; 0: none.
 double noted_memory_need();
 
-/// What an exception says, for people: of std::bad_alloc, that memory is short.
+/// The message of an exception for people: of std::bad_alloc, that memory is short.
 std::string words_of(const std::exception& error);
 
 /// "; the limit of 42 MB (ulimit -v) is for the program and its libraries, too" where there is such

@@ -1,4 +1,4 @@
-"""What made a run, and what whoever reads it must know first."""
+"""Makers of a run, and reservations that its readers must know."""
 
 import contextlib
 import json
@@ -56,10 +56,10 @@ def _of_scene(summary, folder) -> list[str]:
 
 
 def _of_moment(summary, newest) -> list[str]:
-    end, cycle = summary.get("travel_m", summary.get("extension_m")), summary.get("cycle")
+    end, cycles = summary.get("travel_m", summary.get("extension_m")), summary.get("cycles")
     if newest is None or not isinstance(end, (int, float)):
         return []
-    step = end / cycle if isinstance(cycle, (int, float)) and cycle > 0 else 0.0
+    step = end / cycles if isinstance(cycles, (int, float)) and cycles > 0 else 0.0
     if abs(end - newest.named_extension_m) <= 0.02 + 2.0 * step:
         return []
     return [f"summary.json is of {end:g} m, the newest snapshot of {newest.named_extension_m:g} m: "
