@@ -50,6 +50,11 @@ SWEEP = ("sweep", "plan.toml", "--threads", "1", "-o")
 LABORATORY = ("laboratory", "uniaxial", "mat18-b", "--discs", "150", "--seeds", "1", "--threads", "1", "-o", "laboratory")
 
 
+def change(file, **values):
+    """Members of a JSON object."""
+    file.write_text(json.dumps({**json.loads(file.read_text()), **values}, indent=2) + "\n")
+
+
 class Results:
     """A folder of results, and what is done to them."""
 
@@ -89,8 +94,10 @@ class Results:
         elif condition == "other input":
             (self.folder / "fault.csv").write_text(FAULT.replace("4800", "4900"))
         elif condition == "older":  # a run that was extended, and killed at the end of that
-            newest = max((self.folder / ("longer" if of == "run" else of) / "snapshots").iterdir())
-            shutil.copy(newest, run / "snapshots/extension-00030.00m.h5")
+            if of == "run":
+                shutil.copy(self.folder / "longer/snapshots/extension-00030.00m.h5", run / "snapshots")
+            else:
+                change(run / "summary.json", extension_m=20.0)
         elif condition == "unfinished":
             (run / "summary.json").unlink()
         elif condition == "damaged":
@@ -148,7 +155,62 @@ def batch(*words, folder):
     return read
 
 
+def merged(results, run, condition):
+    """`sweep --merge` of a table and its runs."""
+    task = results.folder / "task"
+    for folder in (task, results.folder / "merged"):
+        shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(results.folder / "sweep", task)
+    table, summary = task / "sweep.csv", next(task.glob("runs/*/summary.json"))
+    text = table.read_text()
+    if condition == "other version":
+        table.write_text(re.sub(r"(,[0-9a-f]{16},)[^,]*,", rf"\g<1>{OTHER},", text))
+    elif condition == "other request":
+        file = summary.with_name("scene.toml")
+        file.write_text(file.read_text().replace("damping = 0.5", "damping = 0.6"))
+    elif condition == "older":
+        change(summary, state_hash="0" * 16)
+    elif condition == "unfinished":
+        table.write_text(text.splitlines()[0] + "\n")
+    elif condition == "damaged":
+        table.write_text(text[:-2])
+    return results.call("sweep", "plan.toml", "--merge", "task", "-o", "merged")
+
+
+def tested(results, run, condition):
+    """`laboratory` once more."""
+    del run
+    lab = results.folder / "laboratory"
+    shutil.rmtree(lab, ignore_errors=True)
+    shutil.copytree(results.folder / "tested", lab)
+    words = LABORATORY
+    if condition == "other version":
+        change(lab / "summary.json", version=OTHER)
+    elif condition == "other request":
+        words = (*words, "--seed", "2")
+    elif condition == "other input":
+        text = (lab / "material.toml").read_text()
+        (lab / "material.toml").write_text(re.sub("(?m)^friction = [0-9.]+", "friction = 0.7", text))
+    elif condition == "unfinished":
+        (lab / "summary.json").unlink()
+    elif condition == "damaged":
+        (lab / "summary.json").write_text((lab / "summary.json").read_text()[:300])
+    return results.call(*words)
+
+
+# What is not compared, and why.
+SCENE_HOLDS_IT = "reads no input: scene.toml holds its values"
+NOT_COMPARED = {
+    **{(reader, "other input"): SCENE_HOLDS_IT
+       for reader in ("report", "figures", "export", "view DIR", "view", "diff", "cite", "Python summary", "Python history",
+                      "Python snapshots", "Python faults", "Python lines")},
+    ("laboratory", "older"): "the results are one file of one call",
+    ("cite", "other version"): "prints that version",
+}
+
 READERS = {
+    "sweep --merge": merged,
+    "laboratory": tested,
     "run --resume": by_call(*RUN, "--resume", "--until", "20m", "-o", "RUN"),
     "report": by_call("report", "RUN"),
     "figures": by_call("figures", "RUN", "--at", "10m"),
