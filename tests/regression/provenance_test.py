@@ -3,7 +3,6 @@ version, of another request, with an input file of other content, older than the
 Whatever is not as it should be is said. With --table it prints what each of them says (docs/record).
 """
 
-import functools
 import json
 import os
 import re
@@ -15,7 +14,7 @@ import unittest
 import warnings
 from pathlib import Path
 
-from forged import run_of_another_version
+from forged import OTHER, run_of_another_version
 from program import NO_FIGURES, PROGRAM, SOURCES
 
 sys.path.insert(0, str(SOURCES / "apps/python"))
@@ -68,13 +67,16 @@ class Results:
         self.must(*RUN, "-o", "run", "--until", "20m")
         self.must(*RUN, "-o", "other", "--until", "20m", "--seed", "2", "--no-report")
         self.must("export", "horizons", "run")
+        self.must(*SWEEP, "sweep")
+        self.must(*LABORATORY)
+        shutil.move(folder / "laboratory", folder / "tested")
         shutil.copytree(folder / "run", folder / "longer")
         self.must(*RUN, "-o", "longer", "--resume")
 
-    def call(self, *words):
+    def call(self, *words, **environment):
         """Exit code, and all that is said."""
-        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, env=self.environment, text=True, check=False,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, env=self.environment | environment, text=True,
+                              check=False, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return done.returncode, done.stdout
 
     def must(self, *words):
@@ -127,6 +129,12 @@ def by_call(*words):
     return lambda results, run, condition: results.call(*(run.name if word == "RUN" else word for word in words))
 
 
+def drawn(results, run, condition):
+    """`figures`, with the Python that there is."""
+    del condition
+    return results.call("figures", run.name, "--at", "10m", "--only", "strata", LISTRIC_PYTHON=os.environ.get("LISTRIC_PYTHON", ""))
+
+
 def cards(results, run, condition):
     """`listric view` without a folder, beside a folder `out`."""
     del condition
@@ -136,7 +144,7 @@ def cards(results, run, condition):
     code, said = results.call("view")
     page = out / "index.html"
     if page.exists():
-        said += re.sub(r"<style.*?</style>|<[^>]*>", " ", page.read_text(), flags=re.DOTALL)
+        said += re.sub("<[^>]*>", " ", page.read_text().partition("<main>")[2].replace("<p>", "\n"))
     return code, said
 
 
@@ -213,7 +221,7 @@ READERS = {
     "laboratory": tested,
     "run --resume": by_call(*RUN, "--resume", "--until", "20m", "-o", "RUN"),
     "report": by_call("report", "RUN"),
-    "figures": by_call("figures", "RUN", "--at", "10m"),
+    "figures": drawn,
     "export": by_call("export", "horizons", "RUN", "--at", "10m"),
     "view DIR": by_call("view", "RUN"),
     "view": cards,
@@ -236,13 +244,57 @@ def said_by(results, reader, condition):
         results.mend_input()
 
 
+# Readers that go on with what they find, which makes the summary anew.
+MAKERS = ("run --resume", "sweep")
+MADE_AGAIN = re.compile(r"resuming at|is longer than the scene")  # of a run that begins
+
+
+def first_words(said, condition):
+    """The line of an answer that tells of the condition."""
+    lines = [line.strip() for line in said.splitlines()]
+    about = {"other version": "0.1.0", "other request": "another (request|call|plan)", "other input": "there, ",
+             "older": "newest snapshot|newer|older", "unfinished": "not ended|resuming|none of the folders|no file of such",
+             "damaged": "damaged|resuming|cut short|readable"}
+    found = [line for line in lines if re.search(about[condition], line)]
+    return found[0] if found else ""
+
+
+def cells(results, readers):
+    """(reader, condition, answer) of every cell; an empty answer: silent."""
+    for reader in readers:
+        for condition in CONDITIONS:
+            if why := NOT_COMPARED.get((reader, condition)):
+                yield reader, condition, f"({why})"
+                continue
+            code, said = said_by(results, reader, condition)
+            words = first_words(said, condition)
+            if not words and reader in MAKERS and MADE_AGAIN.search(said):
+                words = "(makes it again from its newest snapshot)"
+            yield reader, condition, f"{words} [{code}]" if words else ""
+
+
+class EveryReader(unittest.TestCase):
+    def test_no_cell_is_silent(self):
+        with tempfile.TemporaryDirectory() as place:
+            for reader, condition, answer in cells(Results(Path(place)), READERS):
+                with self.subTest(reader=reader, condition=condition):
+                    self.assertTrue(answer)
+
+
+def print_table():
+    with tempfile.TemporaryDirectory() as place:
+        print("| reader | " + " | ".join(CONDITIONS) + " |\n|---|" + "---|" * len(CONDITIONS))
+        row = []
+        for reader, condition, answer in cells(Results(Path(place)), sys.argv[2:] or READERS):
+            answer = answer.replace(f"{place}/", "").replace("listric: warning: ", "warning: ").replace("|", "\\|")
+            row.append(re.sub(r"\d\.\d\.\d\+[0-9a-f]{8}(-dirty)?", lambda found: "OTHER" if found[0] == OTHER else "THIS", answer))
+            if condition == CONDITIONS[-1]:
+                print(f"| {reader} | " + " | ".join(row) + " |", flush=True)
+                row = []
+
+
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--table"]:
-        with tempfile.TemporaryDirectory() as place:
-            found = Results(Path(place))
-            for reader in sys.argv[2:] or READERS:
-                for condition in CONDITIONS:
-                    code, said = said_by(found, reader, condition)
-                    print(f"=== {reader} | {condition} | {code}\n{said[:int(os.environ.get('N', 1500))]}", flush=True)
+        print_table()
     else:
         unittest.main()
