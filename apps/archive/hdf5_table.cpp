@@ -35,6 +35,14 @@ struct Cause {
     _exit(4); // exit code of what storage or memory does not hold
 }
 
+/// Whether little is left: a damaged file may ask for more than any machine has.
+bool is_memory_short() {
+    constexpr std::size_t ample = 16 << 20;
+    void* const room = std::malloc(ample);
+    std::free(room);
+    return !room;
+}
+
 /// Failure and its reason.
 [[noreturn]] void fail(const std::string& what) {
     Cause cause;
@@ -46,7 +54,7 @@ struct Cause {
         return 0;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &cause);
-    if (cause.is_memory)
+    if (cause.is_memory && is_memory_short())
         end_for_memory();
     throw StorageError(what + (cause.text.empty() ? "" : " (HDF5: " + cause.text + ")"));
 }

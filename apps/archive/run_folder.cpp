@@ -178,7 +178,7 @@ std::vector<fs::path> RunFolder::snapshots_at(const std::vector<double>& extensi
         paths.push_back(*std::ranges::min_element(snapshots, {}, distance));
         const double apart = distance(paths.back()), interval = scene.output.interval;
         const double last = snapshot_extension(snapshots.back());
-        const double near = 0.01 * interval; // names of older versions are those of cycles
+        const double near = 0.005 * interval; // names of older versions are those of cycles
         if (!(apart <= interval && extension <= last + near))
             throw UsageError(
                 fmt::format("--at {:g}m: no snapshot there; there are some from {:g} to {:g} m",

@@ -218,7 +218,7 @@ double read_moment(const Entry& entry, const SweepMeasure& measure, std::string_
     if (!scene)
         return *metres;
     const double interval = scene->output.interval, end = scene->extension.distance;
-    const double near = 0.01 * interval;
+    const double near = 0.005 * interval;
     if (*metres > end + near)
         fail(entry, fmt::format("@{}: {:g} m is beyond the runs, which end at {:g} m", moment,
                                 *metres, end));

@@ -70,7 +70,7 @@ class Run:
         wanted = metres("extension_m", extension_m)
         snapshots = self._some_snapshots()
         moments = np.array([one.named_extension_m for one in snapshots])
-        near = 0.01 * self._interval_m()  # names of older versions are those of cycles
+        near = 0.005 * self._interval_m()  # names of older versions are those of cycles
         found = int(np.argmin(np.abs(moments - wanted)))
         apart = abs(moments[found] - wanted)
         if not -near <= wanted <= moments[-1] + near:
