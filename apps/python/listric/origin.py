@@ -34,8 +34,10 @@ def reservations(run) -> list[str]:
     except RunError as error:
         ended = (run.folder / "summary.json").exists()
         last = f", it has come to {newest.named_extension_m:g} m" if newest else ""
-        said = [str(error) if ended else f"the run has not ended{last}: `listric run ... --resume` goes on"]
-        made_by = newest.made_by if newest else ""
+        said = [str(error).removeprefix(f"{run.folder}/") if ended else f"the run has not ended{last}: `listric run ... --resume` goes on"]
+        made_by = ""
+        with contextlib.suppress(RunError):  # whoever reads that snapshot is told
+            made_by = newest.made_by if newest else ""
     else:
         said, made_by = [*_of_scene(summary, run.folder), *_of_moment(summary, newest)], makers_of(summary)
     program = program_version()

@@ -75,7 +75,7 @@ class Run:
         apart = abs(moments[found] - wanted)
         if not -near <= wanted <= moments[-1] + near:
             raise BadValue(f"at {wanted:g} m: no snapshot there; there are some from {moments[0]:g} to {moments[-1]:g} m")
-        if apart > near and not isinstance(extension_m, str) and np.any(np.abs(moments - 1000.0 * wanted) <= near):
+        if apart > 0.02 and not isinstance(extension_m, str) and np.any(np.abs(moments - 1000.0 * wanted) <= near):
             raise BadValue(f"at {wanted:g}: numbers are metres, and there is no snapshot at {wanted:g} m; for {wanted:g} km "
                            f"give {1000.0 * wanted:g} or '{wanted:g}km'")
         if apart > near:
