@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
+#include <new>
+#include <string_view>
 #include <type_traits>
+#include <unistd.h>
 #include <utility>
 #include <variant>
 
@@ -15,19 +19,56 @@ using namespace dem;
 
 namespace {
 
-/// Failure and its reason: the innermost entry of HDF5's stack of errors.
+/// Why a call of HDF5 has failed.
+struct Cause {
+    std::string text; ///< of the innermost entry of its stack of errors
+    bool is_memory = false;
+};
+
+/// HDF5 that has run out of memory is left with what it had half made: its next call may be a
+/// crash. So the process ends here.
+[[noreturn]] void end_for_memory() {
+    constexpr std::string_view text =
+        "listric: memory is short (within HDF5); what was saved before stays: --resume goes on "
+        "where there is more memory\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+    _exit(4); // exit code of what storage or memory does not hold
+}
+
+/// Whether little is left: a damaged file may ask for more than any machine has.
+bool is_memory_short() {
+    constexpr std::size_t ample = 16 << 20;
+    void* const room = std::malloc(ample);
+    std::free(room);
+    return !room;
+}
+
+/// Failure and its reason.
 [[noreturn]] void fail(const std::string& what) {
-    std::string cause;
+    Cause cause;
     const auto take = [](unsigned depth, const H5E_error2_t* error, void* into) -> herr_t {
+        Cause& found = *static_cast<Cause*>(into);
         if (depth == 0 && error->desc)
-            *static_cast<std::string*>(into) = error->desc;
+            found.text = error->desc;
+        found.is_memory |= error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC;
         return 0;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &cause);
-    throw StorageError(what + (cause.empty() ? "" : " (HDF5: " + cause + ")"));
+    if (cause.is_memory && is_memory_short())
+        end_for_memory();
+    throw StorageError(what + (cause.text.empty() ? "" : " (HDF5: " + cause.text + ")"));
 }
 
 } // namespace
+
+void prepare_hdf5(double bytes) {
+    H5dont_atexit(); // at its end it would visit all that a failed call has left
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are thrown, not printed
+    void* const room = std::malloc(static_cast<std::size_t>(bytes));
+    if (!room)
+        throw std::bad_alloc();
+    std::free(room);
+}
 
 Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
     if (id < 0)

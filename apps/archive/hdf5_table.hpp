@@ -9,7 +9,12 @@
 
 namespace listric::archive {
 
-// Tables, numbers and texts in groups of an HDF5 file. Everything here throws StorageError.
+// Tables, numbers and texts in groups of an HDF5 file. Everything here throws StorageError, and
+// ends the process where memory runs out within HDF5.
+
+/// Makes HDF5 ready for work that takes so much memory. Throws std::bad_alloc where there is not
+/// that much: HDF5 does not survive to find out.
+void prepare_hdf5(double bytes);
 
 /// An HDF5 identifier that closes itself.
 class Handle {

@@ -1,6 +1,7 @@
 #include "apps/archive/output_folder.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/scene_lines.hpp"
@@ -67,11 +68,11 @@ void require_same_scene(const std::map<std::string, std::string>& now, const std
     const auto differs = scene_difference(scene_values(text), now);
     if (!differs)
         return;
+    const auto [there, here] = shown_apart(differs->one, differs->other);
     throw UsageError(fmt::format("{}: the run to resume has other parameters: {} = {} there, {} in "
                                  "this call; resume it with the parameters that it began with, "
                                  "begin again with --force, or elsewhere with --output",
-                                 file.string(), shown(differs->parameter), shown(differs->one),
-                                 shown(differs->other)));
+                                 file.string(), shown(differs->parameter), there, here));
 }
 
 /// All that a resumed run would take for its own must be of this scene.
@@ -145,10 +146,13 @@ bool check_output(const FolderUse& use, const fs::path& output, ExistingRun exis
         return false;
     }
     const auto reached = summary_travel(summary);
-    const bool finished = reached &&
-                          dem::has_come_to(dem::Travel(*reached), dem::Travel(use.end),
-                                           dem::Travel(cycle_of(object_in(summary)))) &&
-                          !was_killed_at_the_end(output);
+    const bool finished =
+        reached &&
+        dem::has_come_to(dem::Travel(*reached), dem::Travel(use.end),
+                         dem::Travel(cycle_of(object_in(summary)))) &&
+        is_of_scene(object_in(summary), read_text_if_there(output / "scene.toml")) &&
+        (!use.with_report || fs::exists(output / "report.html", error)) &&
+        !was_killed_at_the_end(output);
     require_own_run(use, output, finished);
     return finished;
 }

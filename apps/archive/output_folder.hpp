@@ -40,6 +40,7 @@ struct FolderUse {
     double end = 0.0;                          ///< extension from which on it is finished, m
     bool with_base = true, with_series = true; ///< writes files of these
     bool with_snapshots = true;
+    bool with_report = false; ///< a finished run without one is not
 };
 
 /// The claims of a scene's run to the extension `target`, m.

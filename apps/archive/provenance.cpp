@@ -50,7 +50,7 @@ Json provenance(const std::string& parameters, std::uint64_t seed) {
 Json provenance(const Scene& scene) { return provenance(to_toml(scene), scene.seed); }
 
 Json provenance(const Scene& scene, const RunRecord& record) {
-    Json json = provenance(scene);
+    Json json = provenance(record.scene, scene.seed); // of scene.toml
     if (!record.earlier_versions.empty())
         json["earlier_versions"] = record.earlier_versions;
     return json;
@@ -64,8 +64,19 @@ Json provenance_of_run(const std::filesystem::path& output, const Scene& scene) 
     return json;
 }
 
+bool is_of_scene(const Json& summary, const std::string& scene) {
+    const Json made = object_at(summary, "provenance");
+    const std::string hash = text_at(made, "scene_hash");
+    return hash.empty() || scene.empty() || !texts_at(made, "earlier_versions").empty() ||
+           hash == fmt::format("{:016x}", scene_hash(scene));
+}
+
 std::string makers_of(const std::filesystem::path& output) {
-    const Json made = object_at(object_in(output / "summary.json"), "provenance");
+    return makers_of(object_in(output / "summary.json"));
+}
+
+std::string makers_of(const Json& summary) {
+    const Json made = object_at(summary, "provenance");
     std::vector<std::string> makers = texts_at(made, "earlier_versions");
     const std::string commit = text_at(made, "commit");
     makers.push_back(text_at(made, "version") + (commit.empty() ? "" : "+" + commit));

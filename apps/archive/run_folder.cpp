@@ -8,6 +8,7 @@
 #include "apps/scene/stage.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/text.hpp"
 
 #include <fmt/format.h>
@@ -72,7 +73,7 @@ double output_interval(const std::string& scene) {
 } // namespace
 
 RunMoments run_moments(const fs::path& output) {
-    RunMoments moments{list_snapshots(output), {}, {}, {}};
+    RunMoments moments{list_snapshots(output), {}, {}, {}, {}};
     std::vector<fs::path>& paths = moments.snapshots;
     for (std::size_t k = paths.size(); k-- > 0 && moments.scene.empty();)
         try {
@@ -80,6 +81,8 @@ RunMoments run_moments(const fs::path& output) {
             moments.window_ends = window_ends(record.history);
             moments.scene = std::move(record.scene);
             moments.history = std::move(record.history);
+            moments.makers = std::move(record.earlier_versions);
+            moments.makers.push_back(std::move(record.written_by));
             const MomentNames names(output_interval(moments.scene), moments.window_ends);
             std::size_t older = 0;
             std::erase_if(paths, [&](const fs::path& path) {
@@ -100,10 +103,10 @@ void require_same_run(const fs::path& snapshot, const std::string& holds,
         scene_difference(scene_values(holds), scene_values(scene), SceneScope::results);
     if (!differs)
         return;
+    const auto [there, in_rest] = shown_apart(differs->one, differs->other);
     throw UsageError(fmt::format("{}: another run has made it: {} = {} there, {} in the rest of "
                                  "the folder; take it away, or what it was copied over",
-                                 snapshot.string(), shown(differs->parameter), shown(differs->one),
-                                 shown(differs->other)));
+                                 snapshot.string(), shown(differs->parameter), there, in_rest));
 }
 
 namespace {
@@ -173,10 +176,16 @@ std::vector<fs::path> RunFolder::snapshots_at(const std::vector<double>& extensi
             return std::abs(snapshot_extension(path) - extension);
         };
         paths.push_back(*std::ranges::min_element(snapshots, {}, distance));
-        if (!(distance(paths.back()) <= scene.output.interval))
-            throw UsageError(fmt::format(
-                "--at {}: no snapshot there; there are some from {} to {} m", extension,
-                snapshot_extension(snapshots.front()), snapshot_extension(snapshots.back())));
+        const double apart = distance(paths.back()), interval = scene.output.interval;
+        const double last = snapshot_extension(snapshots.back());
+        const double near = 0.005 * interval; // names of older versions are those of cycles
+        if (!(apart <= interval && extension <= last + near))
+            throw UsageError(
+                fmt::format("--at {:g}m: no snapshot there; there are some from {:g} to {:g} m",
+                            extension, snapshot_extension(snapshots.front()), last));
+        if (apart > near)
+            warn(fmt::format("--at {:g}m: no snapshot there; the nearest is taken, at {:g} m",
+                             extension, snapshot_extension(paths.back())));
     }
     std::ranges::sort(paths, {}, snapshot_extension);
     paths.erase(std::unique(paths.begin(), paths.end()), paths.end());

@@ -28,6 +28,7 @@ struct RunMoments {
     std::vector<double> window_ends; ///< extensions that the run has come to, m
     std::string scene;               ///< that the newest holds; empty: none can be read
     dem::Table history;              ///< up to the newest
+    std::vector<std::string> makers; ///< versions of the program, that of the newest last
 };
 
 /// Throws UsageError if a snapshot is of another format.

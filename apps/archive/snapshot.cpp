@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace listric::archive {
@@ -285,6 +286,7 @@ RunRecord read_record(hid_t file) {
     const Handle parts = open_group(run, "seconds_by_part");
     for (const std::string& part : attributes_of(parts))
         record.seconds_by_part[part] = read_number<double>(parts, part.c_str());
+    record.written_by = read_text_attribute(file, "version");
     return record;
 }
 
@@ -314,8 +316,29 @@ std::vector<std::byte> file_image(const State& state,
     return image;
 }
 
-/// Errors are thrown, not printed.
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+constexpr double hdf5_itself = 3e6; // bytes that it takes for a file of a few discs
+
+/// Memory for making a file's image, bytes: HDF5 has it, and a part of it twice as it grows, and we
+/// take a copy. Most of it are discs and contacts.
+double need_of_image(const State& state) {
+    double bytes = 0.0;
+    for_each_table(state, [&](const char*, const Table& table) {
+        for (const Column& column : table.columns())
+            std::visit(
+                [&](const auto& values) {
+                    bytes += static_cast<double>(values.size() * sizeof values[0]);
+                },
+                column.values);
+    });
+    return 2.0 * bytes + hdf5_itself;
+}
+
+/// Memory for reading a file, bytes: its columns are packed to a third or more.
+double need_of_file(const fs::path& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    return (error ? 0.0 : 4.0 * static_cast<double>(size)) + hdf5_itself;
+}
 
 void check_format(const std::string& found, const std::string& writer) {
     int number = 0;
@@ -347,8 +370,8 @@ template <class Read> auto read_verified(const fs::path& path, Read&& read) {
 
 /// Reads a file; an error names it.
 template <class Read> auto read_file(const fs::path& path, Read&& read) {
-    silence_hdf5();
     try {
+        prepare_hdf5(need_of_file(path));
         return read_verified(path, read);
     } catch (const UsageError& error) {
         throw UsageError(path.string() + ": " + error.what());
@@ -366,7 +389,6 @@ Snapshot read_all(hid_t file) {
     snapshot.state = read_state(file);
     read_memories(file, snapshot);
     snapshot.record = read_record(file);
-    snapshot.version = read_text_attribute(file, "version");
     const auto recorded =
         static_cast<std::uint64_t>(read_number<std::int64_t>(file, "content_hash"));
     if (content_hash(content_of(snapshot)) != recorded)
@@ -378,7 +400,7 @@ Snapshot read_all(hid_t file) {
 
 void write_snapshot(const fs::path& path, const State& state,
                     std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
-    silence_hdf5();
+    prepare_hdf5(need_of_image(state));
     std::vector<std::byte> bytes;
     try {
         bytes = file_image(state, events, record);

@@ -21,6 +21,7 @@ struct RunRecord {
     double disc_steps = 0.0;                       ///< discs times cycles so far
     double predicted_seconds = 0.0;                ///< of the whole run
     std::vector<std::string> earlier_versions;     ///< of the program, before the one at work
+    std::string written_by = {};                   ///< version of the program; empty: this one
 };
 
 /// Everything that the run needs to go on as if it had never stopped.
@@ -29,7 +30,6 @@ struct Snapshot {
     std::map<std::string, dem::Table> event_memory;
     std::map<std::string, std::int64_t> event_applied;
     RunRecord record;
-    std::string version = {}; ///< of the program that wrote it
 };
 
 /// Writes an HDF5 file under a temporary name and renames it, so that a file of this name is always

@@ -1,4 +1,5 @@
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/works.hpp"
@@ -41,9 +42,10 @@ Origin origin_of(const fs::path& output) {
             fmt::format("{}: is no folder of a run, which has scene.toml", shown(output.string())));
     const JsonObject made = object_at(object_in(output / "summary.json"), "provenance");
     if (made.empty())
-        throw UsageError(fmt::format("{}: the run is not finished: summary.json, which has the "
-                                     "version, is missing; run --resume continues it",
+        throw UsageError(fmt::format("{}: the run has not ended: summary.json, which has the "
+                                     "version, is missing or damaged; run --resume goes on",
                                      shown(output.string())));
+    archive::warn_of(output, archive::reservations(output, false));
     return {text_at(made, "version"), text_at(made, "commit"),
             effect_names(load_scene({.scene = scene.string(), .is_record = true})),
             texts_at(made, "earlier_versions")};

@@ -56,7 +56,7 @@ void require_call(const CLI::App& program, const std::string& name);
 
 // Options that several calls share. Each shows the value that it has as its default.
 
-/// "5km", "5000m" or "5000" in metres. Throws UsageError.
+/// "5km" or "5000m" in metres. Throws UsageError.
 double parse_length(const std::string& option, const std::string& text);
 
 /// Cores that this process may use.
@@ -89,7 +89,7 @@ CLI::Option* add_number(CLI::App& command, const char* option, std::optional<dou
 CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<double>& numbers,
                          const std::string& what);
 
-/// Lengths with commas between, such as 5km or 500m; plain numbers are metres.
+/// Lengths with commas between, such as 5km or 500m.
 CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<double>& metres,
                          const std::string& what);
 

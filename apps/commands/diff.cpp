@@ -1,4 +1,6 @@
 #include "apps/archive/headline.hpp"
+#include "apps/archive/provenance.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/commands/command.hpp"
@@ -9,6 +11,7 @@
 #include "apps/support/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -90,15 +93,18 @@ std::vector<Row> parameter_rows(const Side& a, const Side& b) {
     return rows;
 }
 
-std::vector<Row> program_rows(const JsonObject& a, const JsonObject& b) {
-    std::vector<Row> rows;
-    for (const char* key : {"version", "commit"}) {
-        const std::string first = text_at(object_at(a, "provenance"), key);
-        const std::string second = text_at(object_at(b, "provenance"), key);
-        if (first != second)
-            rows.push_back({key, first, second, ""});
-    }
-    return rows;
+/// Versions that made a run, by its summary or else by its newest snapshot.
+std::string makers_of(const Side& side) {
+    return side.summary.empty()
+               ? fmt::format("{}", fmt::join(archive::run_moments(side.run).makers, ", "))
+               : archive::makers_of(side.summary);
+}
+
+std::vector<Row> program_rows(const Side& a, const Side& b) {
+    const std::string first = makers_of(a), second = makers_of(b);
+    return first == second ? std::vector<Row>{}
+                           : std::vector<Row>{{"made by", first.empty() ? "unknown" : first,
+                                               second.empty() ? "unknown" : second, ""}};
 }
 
 std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
@@ -137,10 +143,7 @@ std::optional<std::pair<std::string, std::string>> newest_state(const Side& side
 /// Rows of runs of which one or both have no readable summary: their newest states.
 /// @param looked  whether there were two to compare
 std::vector<Row> state_rows(const Side& a, const Side& b, bool& looked) {
-    for (const Side* side : {&a, &b})
-        if (side->summary.empty())
-            warn(fmt::format("{} has no summary.json: the newest snapshots are compared",
-                             shown(side->name)));
+    warn("the newest snapshots are compared");
     const auto first = newest_state(a), second = newest_state(b);
     looked = first && second;
     std::vector<Row> rows;
@@ -155,9 +158,13 @@ ExitCode compare(const std::string& first, const std::string& second) {
     const Side a = read_side(first), b = read_side(second);
     bool looked = true;
     std::string text = table_text("parameter", parameter_rows(a, b));
+    for (const Side* side : {&a, &b})
+        if (!side->run.empty())
+            archive::warn_of(side->name, archive::reservations(side->run, false));
+    if (!a.run.empty() && !b.run.empty())
+        text += table_text("program", program_rows(a, b));
     if (!a.summary.empty() && !b.summary.empty())
-        text += table_text("program", program_rows(a.summary, b.summary)) +
-                table_text("result", result_rows(a.summary, b.summary));
+        text += table_text("result", result_rows(a.summary, b.summary));
     else if (!a.run.empty() && !b.run.empty())
         text += table_text("result", state_rows(a, b, looked));
     else if (a.run.empty() != b.run.empty())

@@ -24,6 +24,7 @@ Command add_export(CLI::App& program) {
         ->type_name("KIND")
         ->required();
     command->add_option("DIR", request->output, "folder of a run")->type_name("DIR")->required();
+    add_output(*command, request->folder, "DIR/export", "folder of the files");
     command
         ->add_option("--format", request->formats,
                      "csv, geojson or gmt; for discs csv or gsd; for seismic segy or npy; several "

@@ -84,6 +84,7 @@ Command add_figures(CLI::App& program) {
                              {"figures out/lis1 --width 85mm --at 5km", "one for a column"},
                              {"figures out/lis1 --animation", "a film of all snapshots"}}}});
     command->add_option("DIR", request.output, "folder of a run")->type_name("DIR")->required();
+    add_output(*command, request.pictures, "DIR/figures", "folder of the pictures");
     command->add_flag("--animation", call->animation,
                       "make a film of all snapshots instead of the figures");
     add_underlay(*command, call->underlay);
@@ -91,8 +92,8 @@ Command add_figures(CLI::App& program) {
         *command, "--at", request.extensions,
         "extensions of snapshots whose sections are drawn, such as 5km, with commas between")
         ->default_str("the scene's output.figures_at_m, and the end");
-    add_numbers(*command, "--well", request.wells,
-                "distances from the breakaway, m, of wells whose figure alone is drawn")
+    add_lengths(*command, "--well", request.wells,
+                "distances from the breakaway, such as 3.3km, of wells whose figure alone is drawn")
         ->default_str("the depocentre and its flank, beside all figures");
     command
         ->add_option("--width", call->width,
@@ -129,8 +130,9 @@ Command add_figures(CLI::App& program) {
                 if (!call->width.empty())
                     wanted.order.width_mm = parse_width(call->width);
                 wanted.order.caption = true;
-                const auto files =
-                    call->animation ? animate_run(wanted.output, call->formats) : draw_run(wanted);
+                const auto files = call->animation
+                                       ? animate_run(wanted.output, call->formats, wanted.pictures)
+                                       : draw_run(wanted);
                 for (const auto& file : files)
                     std::cout << file.string() << '\n';
                 return ExitCode::done;

@@ -53,17 +53,10 @@ CLI::Option* add_threads(CLI::App& command, int& threads) {
 }
 
 double parse_length(const std::string& option, const std::string& text) {
-    const double unit = text.ends_with("km") ? 1e3 : 1.0;
-    const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
-    const std::string_view number = std::string_view(text).substr(0, text.size() - letters);
-    const auto value = parse_number(number);
-    const double metres = unit * value.value_or(NAN);
-    if (!(metres >= 0.0 && metres <= 1e7)) {
-        const std::string what = value ? "" : number_objection(number);
-        throw UsageError(fmt::format("{} {}: a length of at least 0, such as 5km or 500m{}", option,
-                                     shown_start(text), what.empty() ? "" : "; this is " + what));
-    }
-    return metres;
+    const Length length = read_length(text);
+    if (!length.objection.empty())
+        throw UsageError(fmt::format("{} {}: {}", option, shown_start(text), length.objection));
+    return length.metres;
 }
 
 namespace {
@@ -113,21 +106,12 @@ CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<doub
 
 CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<double>& metres,
                          const std::string& what) {
-    const auto bare = std::make_shared<std::string>(); // the last length without a unit
     const CLI::Validator length(
-        [option, bare](std::string& word) {
-            const std::string given = word;
-            try {
-                word = fmt::format("{}", parse_length(option, word));
-            } catch (const UsageError& error) {
-                return std::string(error.what()).substr(std::string_view(option).size() + 1);
-            }
-            const bool has_unit = given.ends_with('m');
-            if (has_unit && !bare->empty())
-                return fmt::format("{0},{1}: a comma parts lengths, and {0} has no unit; write "
-                                   "{0}.{1} with a decimal point, or {0}m,{1}",
-                                   shown_start(*bare), shown_start(given));
-            *bare = has_unit ? "" : given;
+        [](std::string& word) {
+            const Length read = read_length(word);
+            if (!read.objection.empty())
+                return fmt::format("{}: {}", shown_start(word), read.objection);
+            word = fmt::format("{}", read.metres);
             return std::string();
         },
         "");

@@ -1,4 +1,5 @@
 #include "apps/run/run.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/scene_lines.hpp"
 #include "apps/commands/asked_accuracy.hpp"
 #include "apps/commands/command.hpp"
@@ -43,7 +44,7 @@ struct RunCall {
     CLI::Option* threads = nullptr;
     std::string ranks; ///< --ranks; empty: not given
     bool force_size = false;
-    bool no_report = false;
+    bool no_report = false, no_figures = false;
 };
 
 /// A number of processes; none for "all", as many as were started together, and where there is
@@ -95,6 +96,7 @@ RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
         options.threads = 1;
     options.output = output_of(call, scene.name);
     options.report = !call.no_report;
+    options.figures = !call.no_figures;
     return options;
 }
 
@@ -161,7 +163,13 @@ ExitCode run_alone(const RunCall& call) {
     }
     const Scene scene = scene_of(call);
     check_scene(call, scene, false);
-    return exit_code_of(run_scene(scene, options_of(call, scene, false)));
+    const RunOptions options = options_of(call, scene, false);
+    const fs::path summary = options.output / "summary.json";
+    const std::string before = read_text_if_there(summary);
+    const ExitCode code = exit_code_of(run_scene(scene, options));
+    if (!before.empty() && before == read_text_if_there(summary)) // nothing was left to do
+        archive::warn_of(options.output, archive::reservations(options.output));
+    return code;
 }
 
 /// Takes level and speed from what was recorded. Processes that share a run must not each measure
@@ -240,6 +248,7 @@ Command add_run(CLI::App& program) {
     command->add_flag("--live", call->options.live,
                       "write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "write no report.html");
+    command->add_flag("--no-figures", call->no_figures, "draw no figures");
     add_asked_accuracy(*command, call->asked);
     add_quiet(*command, call->options.quiet);
     return {command, [call] { return run(*call); }};

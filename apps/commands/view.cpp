@@ -1,5 +1,6 @@
 #include "apps/archive/headline.hpp"
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
 #include "apps/support/error.hpp"
@@ -10,6 +11,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -33,10 +35,15 @@ struct Card { // NOLINT(bugprone-exception-escape): JSON that is moved does not 
     JsonObject summary;
 };
 
-/// Finished runs in a folder and in the folders in it, newest first.
-std::vector<Card> cards_in(const fs::path& folder) {
+/// Runs in a folder and in the folders in it.
+struct Runs {
+    std::vector<Card> finished;      ///< newest first
+    std::vector<std::string> others; ///< that have not ended, or whose summary is damaged
+};
+
+Runs runs_in(const fs::path& folder) {
     constexpr int deepest = 2; // runs of sweeps and validations
-    std::vector<Card> cards;
+    Runs runs;
     const auto options = fs::directory_options::skip_permission_denied;
     std::error_code error; // of an entry of somebody else's, which is passed over
     for (auto at = fs::recursive_directory_iterator(folder, options, error);
@@ -46,15 +53,18 @@ std::vector<Card> cards_in(const fs::path& folder) {
         struct stat facts {};
         const fs::path summary = at->path() / "summary.json";
         std::error_code of_entry;
-        if (!at->is_directory(of_entry) || !fs::exists(at->path() / "scene.toml", of_entry) ||
-            stat(summary.c_str(), &facts) != 0)
+        if (!at->is_directory(of_entry) || !fs::exists(at->path() / "scene.toml", of_entry))
             continue;
         at.disable_recursion_pending();
-        if (JsonObject found = object_in(summary); is_true_at(found, "finished"))
-            cards.push_back({at->path(), facts.st_mtime, std::move(found)});
+        JsonObject found = object_in(summary);
+        if (is_true_at(found, "finished") && stat(summary.c_str(), &facts) == 0)
+            runs.finished.push_back({at->path(), facts.st_mtime, std::move(found)});
+        else
+            runs.others.push_back(at->path().lexically_normal().string());
     }
-    std::ranges::sort(cards, std::greater{}, &Card::when);
-    return cards;
+    std::ranges::sort(runs.finished, std::greater{}, &Card::when);
+    std::ranges::sort(runs.others);
+    return runs;
 }
 
 std::string html(const std::string& text) {
@@ -105,16 +115,21 @@ std::string card_html(const Card& card, const fs::path& page) {
         if (one.value)
             rows += fmt::format("<tr><td title=\"{}\">{}<td>{}", html(one.key), html(one.name),
                                 html(archive::value_text(one)));
+    std::string doubts;
+    for (const std::string& one : archive::reservations(card.run))
+        doubts += "<p>" + html(one);
+    if (fs::exists(report) && !archive::is_up_to_date(report, card.run))
+        doubts += "<p>the report is older than the run: listric view makes it again";
     const std::string name = html(card.run.lexically_normal().string());
     return fmt::format(
-        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
+        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p><table>{}</table>{}"
         "</article>\n",
         picture_of(card.run, page),
         fs::exists(report) ? fmt::format("<a href=\"{}\">{}</a>", link_to(report, page), name)
                            : name,
         html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
         html(whole_number_at(card.summary, "seed").value_or("unknown")), fmt::localtime(card.when),
-        rows);
+        rows, doubts);
 }
 
 /// Writes a page of cards, whose pictures and links are files of the runs. Returns the file.
@@ -123,9 +138,17 @@ fs::path write_cards(const fs::path& folder) {
     if (!fs::is_directory(folder))
         throw UsageError(fmt::format("there is no folder {} here; listric run makes it",
                                      shown(folder.string())));
-    std::vector<Card> cards = cards_in(folder);
+    auto [cards, others] = runs_in(folder);
+    const std::string unfinished =
+        others.empty() ? ""
+                       : fmt::format("not shown, as they have not ended or have no readable "
+                                     "summary.json: {}; listric run --resume goes on",
+                                     shown_start(fmt::format("{}", fmt::join(others, ", ")), 1000));
     if (cards.empty())
-        throw UsageError(fmt::format("{} has no finished run", shown(folder.string())));
+        throw UsageError(fmt::format("{} has no finished run{}{}", shown(folder.string()),
+                                     unfinished.empty() ? "" : "; ", unfinished));
+    if (!unfinished.empty())
+        warn(unfinished);
     const std::size_t all = cards.size();
     cards.resize(std::min(all, most));
     const fs::path page = folder / "index.html";
@@ -150,20 +173,23 @@ td + td {{ text-align: right; white-space: nowrap }}
 </style>
 <h1>Runs in {0}</h1>
 <p>{1} of {2} finished runs, newest first. A name leads to the report.</p>
+<p>{3}</p>
 <main>
 )",
-                                   html(folder.string()), cards.size(), all);
+                                   html(folder.string()), cards.size(), all, html(unfinished));
     for (const Card& card : cards)
         text += card_html(card, page);
     write_text(page, text + "</main>\n");
     return page;
 }
 
-/// The report of a run, made if it is not there.
+/// The report of a run, made if it is not there, or shows less than the run has come to.
 fs::path report_of(const fs::path& run) {
     const fs::path page = run / "report.html";
-    if (fs::exists(page))
+    if (archive::is_up_to_date(page, run)) {
+        archive::warn_of(run, archive::reservations(run));
         return page;
+    }
     for (const std::string& lack : report_run({.outputs = {run}}).lacks)
         warn("the page is not whole: " + lack);
     return page;

@@ -30,11 +30,10 @@ namespace {
 constexpr const char* base_header = "extension_m,x_m,y_m,ux_m,uy_m\n";
 constexpr const char* uplift_header = "extension_m,x_m,uplift_m\n";
 
-/// Writes a table of the run, but not over a file of somebody's that has its name. In a scene with
-/// stages moments are told apart by the travel, which stands before the extension.
-void write_table(const RunFolder& run, const char* name, const std::string& header,
+/// Writes a table of the run into a folder, but not over a file of somebody's that has its name. In
+/// a scene with stages moments are told apart by the travel, which stands before the extension.
+void write_table(const RunFolder& run, const fs::path& file, const std::string& header,
                  const std::string& rows) {
-    const fs::path file = run.output / name;
     const std::string there = read_text_if_there(file);
     if (!there.empty() && there.substr(0, there.find('\n') + 1).find(header) == there.npos)
         throw UsageError(file.string() + ": is no table of a run, which would be written there; "
@@ -111,7 +110,8 @@ void export_section(const Observation& now, const std::vector<fem::StressPatch>&
 
 /// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
 /// False if there is no such field.
-bool export_footwall(const RunFolder& run, const fs::path& folder) {
+/// @param tables  folder of footwall.csv
+bool export_footwall(const RunFolder& run, const fs::path& folder, const fs::path& tables) {
     std::vector<std::unique_ptr<Event>> events;
     const std::unique_ptr<BaseDriver> driver = make_base_driver(run.scene, run.parts, events);
     const int decimals = decimals_for(run.scene.output.interval);
@@ -129,13 +129,14 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
             export_section({run.scene, run.parts, snapshot.state, events}, footwall->stress(),
                            folder);
     }
-    write_table(run, "footwall.csv", uplift_header, rows);
+    write_table(run, tables / "footwall.csv", uplift_header, rows);
     return true;
 }
 
 } // namespace
 
-void draw_base(const RunFolder& run, const PictureOrder& order) {
+void draw_base(const RunFolder& run, const fs::path& tables, const fs::path& pictures,
+               const PictureOrder& order) {
     const int decimals = decimals_for(run.scene.output.interval);
     std::string rows;
     for (const fs::path& path : run.snapshots) {
@@ -146,11 +147,11 @@ void draw_base(const RunFolder& run, const PictureOrder& order) {
             rows += fmt::format("{1}{2:.{0}f},{3:.{0}f},{5:.{4}f},{6:.{4}f}\n", decimals, moment,
                                 nodes.x[k], nodes.y[k], decimals + 2, nodes.ux[k], nodes.uy[k]);
     }
-    write_table(run, "base.csv", base_header, rows);
-    const fs::path folder = fs::absolute(run.output), figures = folder / "figures";
+    write_table(run, tables / "base.csv", base_header, rows);
+    const fs::path folder = fs::absolute(tables), figures = fs::absolute(pictures);
     run_drawing_script("base.py", {folder.string(), figures.string(), order.text()});
     const TemporaryFolder data(figures);
-    if (export_footwall(run, data.path))
+    if (export_footwall(run, data.path, folder))
         run_drawing_script("footwall.py",
                            {folder.string(), data.path.string(), figures.string(), order.text()});
 }

@@ -9,6 +9,7 @@ namespace listric {
 /// and draws it; of an elastic base also footwall.csv, the uplift of its surface and of the
 /// detachment at a fifth, half and the whole of the extension, and the stress at the end. Throws
 /// StorageError if it cannot.
-void draw_base(const archive::RunFolder& run, const PictureOrder& order);
+void draw_base(const archive::RunFolder& run, const std::filesystem::path& tables,
+               const std::filesystem::path& pictures, const PictureOrder& order);
 
 } // namespace listric

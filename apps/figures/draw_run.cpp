@@ -4,6 +4,7 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
@@ -37,7 +38,11 @@ namespace {
 RunFolder open_run(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
-    return RunFolder(output);
+    return shown_run(output);
+}
+
+fs::path pictures_of(const fs::path& output, const fs::path& elsewhere) {
+    return elsewhere.empty() ? output / "figures" : elsewhere;
 }
 
 /// Snapshots at the scene's figure extensions, and the newest.
@@ -104,16 +109,20 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 
 std::vector<fs::path> draw_run(const FiguresRequest& request) {
     const fs::path& output = request.output;
-    const WrittenFiles written(output / "figures");
+    const fs::path pictures = pictures_of(output, request.pictures);
+    const WrittenFiles written(pictures);
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error)) {
         PictureOrder order = request.order;
         order.provenance = object_at(object_in(output / "summary.json"), "provenance");
-        draw_flexure(output, order);
+        warn_of(output, reservations(output));
+        make_result_folder(pictures);
+        draw_flexure(output, pictures, order);
         return written.since();
     }
     const RunFolder run = open_run(output);
     require_panels(run, request.order.only);
+    make_result_folder(pictures);
     PictureOrder order = request.order;
     order.provenance = provenance_of_run(output, run.scene);
     order.errors = error_sentence(object_in(output / "summary.json"));
@@ -121,14 +130,14 @@ std::vector<fs::path> draw_run(const FiguresRequest& request) {
         request.extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(request.extensions);
     const bool sections_alone = !order.only.empty() || order.width_mm > 0.0;
     const bool has_wells = (!request.wells.empty() || !sections_alone) &&
-                           draw_wells(run, chosen, request.wells, order);
+                           draw_wells(run, chosen, request.wells, pictures, order);
     if (!request.wells.empty()) {
         if (!has_wells)
             throw UsageError(fmt::format("--well {}: no pore water under pressure there",
                                          fmt::join(request.wells, ",")));
         return written.since();
     }
-    FigureFrames frames(output / "figures", request.underlay, order, run.names);
+    FigureFrames frames(pictures, request.underlay, order, run.names);
     const RunHistory history(run);
     bool base_moves = false;
     for (const fs::path& path : chosen) {
@@ -141,7 +150,7 @@ std::vector<fs::path> draw_run(const FiguresRequest& request) {
         if (chosen.size() > 1)
             frames.draw("experiment");
         if (base_moves)
-            draw_base(run, order);
+            draw_base(run, request.pictures.empty() ? output : pictures, pictures, order);
     }
     return written.since();
 }
@@ -157,10 +166,13 @@ void draw_experiment(const RunFolder& run, const RunHistory& history) {
     frames.draw("experiment");
 }
 
-std::vector<fs::path> animate_run(const fs::path& output, const std::vector<std::string>& formats) {
-    const WrittenFiles written(output / "figures");
+std::vector<fs::path> animate_run(const fs::path& output, const std::vector<std::string>& formats,
+                                  const fs::path& elsewhere) {
+    const fs::path pictures = pictures_of(output, elsewhere);
+    const WrittenFiles written(pictures);
     const RunFolder run = open_run(output);
-    FigureFrames frames(output / "figures", std::nullopt, {.formats = formats}, run.names);
+    make_result_folder(pictures);
+    FigureFrames frames(pictures, std::nullopt, {.formats = formats}, run.names);
     // The window before shows where the faults are; their history is not drawn.
     RunHistory window;
     for (const fs::path& path : run.snapshots) {

@@ -21,6 +21,7 @@ struct FiguresRequest {
     std::vector<double> wells = {};        ///< x, m, of wells whose figure alone is drawn; none:
                                            ///< where the effect has them
     PictureOrder order = {};               ///< all but the provenance
+    std::filesystem::path pictures = {};   ///< folder of the files; empty: figures of the run's
 };
 
 /// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
@@ -35,7 +36,9 @@ void draw_experiment(const archive::RunFolder& run, const archive::RunHistory& h
 /// Draws every snapshot of a run's folder as a frame of an animation. Returns the file. Throws as
 /// draw_run.
 /// @param formats  of film_formats; none: MP4 with ffmpeg, else GIF
+/// @param pictures  folder of the film; empty: figures of the run's
 std::vector<std::filesystem::path> animate_run(const std::filesystem::path& output,
-                                               const std::vector<std::string>& formats = {});
+                                               const std::vector<std::string>& formats = {},
+                                               const std::filesystem::path& pictures = {});
 
 } // namespace listric

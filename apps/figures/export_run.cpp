@@ -3,6 +3,7 @@
 #include "apps/archive/burial_history.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/exports.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -156,7 +157,7 @@ void write_lines(LineTable table, std::string_view kind, const fs::path& snapsho
         table.name += fmt::format("-x-{}m", listed(request.wells));
     for (const std::string& format : request.formats)
         if (format != "gsd") {
-            files.push_back(request.output / "export" / (table.name + "." + format));
+            files.push_back(request.folder / (table.name + "." + format));
             write_text(files.back(), written(table, format));
         }
 }
@@ -181,14 +182,16 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
     if (list_snapshots(request.output).empty())
         throw UsageError(request.output.string() +
                          ": no snapshots to export; is this a run's folder?");
-    const RunFolder run(request.output);
+    const RunFolder run = shown_run(request.output);
     if (!kind.table && !has_seismics(run.scene))
         throw UsageError(request.output.string() +
                          ": seismics need a hanging wall of 1 km or more");
     const std::vector<fs::path> moments = run.snapshots_at(request.extensions);
     const RunHistory history = kind.needs_faults ? RunHistory(run) : RunHistory();
-    const fs::path folder = request.output / "export";
-    make_folder(folder);
+    if (request.folder.empty())
+        request.folder = request.output / "export";
+    const fs::path& folder = request.folder;
+    make_result_folder(folder);
     std::vector<fs::path> files;
     std::unique_ptr<Trajectory> trajectory;
     if (std::ranges::find(request.formats, "gsd") != request.formats.end())

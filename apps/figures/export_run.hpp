@@ -17,11 +17,12 @@ struct ExportRequest {
     std::vector<double> extensions = {};   ///< of the nearest snapshots, m; empty: all
     std::vector<double> wells = {};        ///< x, m, of kind well; empty: the effect's places
     SeismicOptions seismic = {};
+    std::filesystem::path folder = {}; ///< of the files; empty: export of the run's
 };
 
 std::vector<std::string_view> export_kinds();
 
-/// Writes output/export/KIND-SNAPSHOT[-OPTIONS].FORMAT, and one discs.gsd of all moments: calls
+/// Writes KIND-SNAPSHOT[-OPTIONS].FORMAT, and one discs.gsd of all moments: calls
 /// that ask for other things write other files. Returns the files. Throws UsageError, SceneError,
 /// StorageError.
 std::vector<std::filesystem::path> export_run(const ExportRequest& request);

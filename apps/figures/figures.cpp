@@ -3,6 +3,7 @@
 #include "apps/archive/provenance.hpp"
 #include "apps/figures/frame.hpp"
 #include "apps/figures/seismic_section.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
 
@@ -69,14 +70,14 @@ std::future<std::string> draw_figures(const Observation& now, const FaultReport&
             names);
         frames->add(now, faults);
     } catch (const std::exception& error) {
-        problem = error.what();
+        problem = words_of(error);
     }
     return std::async(std::launch::async, [frames = std::move(frames), problem] {
         try {
             if (problem.empty())
                 frames->draw("sections");
         } catch (const std::exception& error) {
-            return std::string(error.what());
+            return words_of(error);
         }
         return problem;
     });

@@ -6,11 +6,11 @@ namespace listric {
 
 namespace fs = std::filesystem;
 
-void draw_flexure(const fs::path& output, const PictureOrder& order) {
+void draw_flexure(const fs::path& output, const fs::path& pictures, const PictureOrder& order) {
     std::error_code error;
-    fs::create_directories(output / "figures", error);
-    const fs::path run = fs::absolute(output);
-    run_drawing_script("flexure.py", {run.string(), (run / "figures").string(), order.text()});
+    fs::create_directories(pictures, error);
+    run_drawing_script("flexure.py", {fs::absolute(output).string(),
+                                      fs::absolute(pictures).string(), order.text()});
 }
 
 } // namespace listric

@@ -1,6 +1,7 @@
 #include "apps/figures/report_run.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/reservations.hpp"
 #include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -11,6 +12,7 @@
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 
 #include <fmt/format.h>
 
@@ -56,7 +58,7 @@ struct ReadRun {
 ReadRun opened(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to report on; is this a run's folder?");
-    RunFolder folder(output);
+    RunFolder folder = shown_run(output);
     RunHistory history(folder);
     return {std::move(folder), std::move(history)};
 }
@@ -100,7 +102,8 @@ public:
         try {
             const fem::Footwall* footwall = driver_->recover(snapshot.state);
             return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
-        } catch (const UsageError&) { // the mesh's file is another by now: likewise
+        } catch (const UsageError& error) { // the mesh's file is another by now: likewise
+            warn(fmt::format("the report has no stress below the base: {}", error.what()));
             driver_.reset();
             return {};
         }

@@ -44,7 +44,8 @@ nlohmann::ordered_json wells_json(const Observation& now, const MeasuredWell& we
 } // namespace
 
 bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
-                const std::vector<double>& wells, const PictureOrder& order) {
+                const std::vector<double>& wells, const fs::path& pictures,
+                const PictureOrder& order) {
     const MeasuredWell* const well = measured_well(run.scene);
     if (!well)
         return false;
@@ -70,7 +71,7 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
         return false;
     for (const double x : dry)
         warn(fmt::format("--well {}: no pore water under pressure there", text(x)));
-    const fs::path figures = fs::absolute(run.output) / "figures";
+    const fs::path figures = fs::absolute(pictures);
     const TemporaryFolder data(figures);
     write_text(data.path / "wells.json", to_text(nlohmann::ordered_json{{"frames", frames}}));
     run_drawing_script("wells.py", {data.path.string(), figures.string(), order.text()});

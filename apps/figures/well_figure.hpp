@@ -15,6 +15,7 @@ namespace listric {
 /// @param snapshots  of the run
 /// @param wells  x, m; none: the effect's own places
 bool draw_wells(const archive::RunFolder& run, std::span<const std::filesystem::path> snapshots,
-                const std::vector<double>& wells, const PictureOrder& order);
+                const std::vector<double>& wells, const std::filesystem::path& pictures,
+                const PictureOrder& order);
 
 } // namespace listric

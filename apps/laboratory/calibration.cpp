@@ -4,6 +4,7 @@
 #include "apps/archive/output_folder.hpp"
 #include "apps/laboratory/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
+#include "apps/laboratory/own_request.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/text.hpp"
@@ -127,6 +128,20 @@ Json validate(Calibration& c, Rocks& rocks, const CalibrationRequest& request) {
 
 } // namespace
 
+namespace {
+
+/// All of a call that its results depend on.
+Json request_of(const CalibrationRequest& request) {
+    const CalibrationTargets& t = request.targets;
+    Json json = {{"young", t.young},       {"poisson", t.poisson},  {"friction", t.friction},
+                 {"cohesion", t.cohesion}, {"byerlee", t.byerlee},  {"discs", request.discs},
+                 {"seed", request.seed},   {"seeds", request.seeds}};
+    json["bulk_friction"] = t.bulk_friction ? Json(*t.bulk_friction) : Json("none");
+    return json;
+}
+
+} // namespace
+
 void run_calibration(const CalibrationRequest& request) {
     request.targets.check();
     if (const std::string why = objection_to_name(request.name); !why.empty())
@@ -151,6 +166,8 @@ void run_calibration(const CalibrationRequest& request) {
             throw UsageError(file.string() + ": is there already, and would be written over; "
                                              "--output writes elsewhere");
 
+    const Json asked = request_of(request);
+    require_same_request(output, asked);
     Laboratory lab;
     lab.sample = compression_sample(static_cast<std::size_t>(request.discs));
     lab.seed = static_cast<std::uint64_t>(request.seed);
@@ -159,8 +176,13 @@ void run_calibration(const CalibrationRequest& request) {
     lab.stop = request.stop;
     Log log(request.quiet);
     Calibration c{request.targets, lab, CalibrationHistory(history, request.resume), log};
+    if (const std::size_t others = c.history.of_other_versions())
+        log.say(fmt::format("warning: {}: {} measurements are of another version, and made again",
+                            history.string(), others));
     Rocks rocks = find_rocks(c, request.name);
-    const Json summary = validate(c, rocks, request);
+    Json summary = validate(c, rocks, request);
+    summary["request"] = asked;
+    summary["version"] = summary_version();
 
     if (rocks.weak)
         write_text(output / (rocks.weak->name + ".toml"), to_toml(*rocks.weak));

@@ -68,6 +68,13 @@ CalibrationHistory::CalibrationHistory(std::filesystem::path file, bool resume)
     entries_ = nlohmann::json(found); // which compares objects whatever their keys' order
 }
 
+std::size_t CalibrationHistory::of_other_versions() const {
+    return static_cast<std::size_t>(std::ranges::count_if(entries_, [](const auto& entry) {
+        const auto made_by = entry["of"].find("version");
+        return made_by == entry["of"].end() || *made_by != version;
+    }));
+}
+
 std::vector<double> CalibrationHistory::measure(const std::string& what, const nlohmann::json& key,
                                                 std::size_t count,
                                                 const std::function<std::vector<double>()>& work) {

@@ -27,6 +27,9 @@ public:
 
     std::size_t size() const { return entries_.size(); }
 
+    /// Measurements of other versions of the program, which are not used.
+    std::size_t of_other_versions() const;
+
 private:
     std::filesystem::path file_;
     nlohmann::json entries_ = nlohmann::json::array();

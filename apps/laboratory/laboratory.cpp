@@ -3,6 +3,7 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_files.hpp"
+#include "apps/laboratory/own_request.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
@@ -179,17 +180,6 @@ JsonObject request_json(const LaboratoryRequest& request, const std::vector<std:
             {"healing_rates", request.healing_rates}};
 }
 
-/// Refuses to replace the results of another call.
-void require_same_request(const fs::path& output, const JsonObject& asked) {
-    const JsonObject before = object_at(object_in(output / "summary.json"), "request");
-    for (const auto& [key, value] : before.items())
-        if (asked.contains(key) && asked[key] != value)
-            throw UsageError(fmt::format("{}: holds the results of another call: {} = {} there, {} "
-                                         "here; --output writes elsewhere",
-                                         output.string(), shown(key), shown_start(to_text(value)),
-                                         shown_start(to_text(asked[key]))));
-}
-
 } // namespace
 
 std::span<const std::string_view> laboratory_tests() { return test_names; }
@@ -215,6 +205,7 @@ void run_laboratory(const LaboratoryRequest& request) {
     require_own_folder(output, test, text, materials.find(request.material));
     const JsonObject asked = request_json(request, changes);
     require_same_request(output, asked);
+    require_same_material(output / "material.toml", text);
     write_text(output / "material.toml", text);
     Laboratory lab = make_laboratory(request, test);
     Log log(request.quiet);
@@ -225,7 +216,8 @@ void run_laboratory(const LaboratoryRequest& request) {
     report.summary = {
         {"test", request.test},         {"material", rock.name},  {"discs", request.discs},
         {"seed", request.seed},         {"seeds", request.seeds}, {"threads", request.threads},
-        {"floaters", request.floaters}, {"set", changes},         {"request", asked}};
+        {"floaters", request.floaters}, {"set", changes},         {"request", asked},
+        {"version", summary_version()}};
     carry_out(report, request, test);
     report.summary["wall_s"] = seconds_since(started);
     write_object(output / "summary.json", report.summary);

@@ -40,6 +40,7 @@ fs::path failure_of(const BatchRun& run) { return run.options.output / "failure.
 struct Failure {
     BatchEnding ending;
     std::string scene_hash; ///< of the scene that failed
+    std::string version;    ///< of the program in which it did
 };
 
 /// None if it has not failed, or a file says so that is none of ours.
@@ -49,22 +50,29 @@ std::optional<Failure> read_failure(const BatchRun& run) {
     const std::string reason = text_at(file, "reason"), scene_hash = text_at(file, "scene_hash");
     if (!code || reason.empty() || scene_hash.empty())
         return std::nullopt;
-    return Failure{{static_cast<int>(std::clamp(*code, 0.0, 255.0)), reason}, scene_hash};
+    return Failure{{static_cast<int>(std::clamp(*code, 0.0, 255.0)), reason},
+                   scene_hash,
+                   text_at(file, "version")};
 }
 
 std::string hash_of(const Scene& scene) {
     return fmt::format("{:016x}", archive::scene_hash(scene));
 }
 
-/// Whether numerics have failed in that: there is no use in making such a run again.
+/// Whether numerics have failed in that: there is no use in going on with such a run.
 bool is_final(const Failure& failure) {
     return failure.ending.exit_code == static_cast<int>(ExitCode::numerics_failed);
+}
+
+/// Whether the same scene would fail in the same program.
+bool is_of(const Failure& failure, const Scene& scene) {
+    return failure.scene_hash == hash_of(scene) && failure.version == version;
 }
 
 /// How a run ended before, if there is no use in making it again.
 std::optional<BatchEnding> known_ending(const BatchRun& run) {
     const auto failure = read_failure(run);
-    if (failure && is_final(*failure) && failure->scene_hash == hash_of(run.scene))
+    if (failure && is_final(*failure) && is_of(*failure, run.scene))
         return failure->ending;
     return std::nullopt;
 }
@@ -75,14 +83,13 @@ constexpr int in_use = 75; // EX_TEMPFAIL of sysexits.h
 /// Makes a run; leaves what went wrong in its folder. Returns the process' exit code.
 int make(const BatchRun& run) {
     Ending ending{ExitCode::done, ""};
-    const std::string scene_hash = hash_of(run.scene);
     try {
         make_folder(run.options.output);
         RunOptions options = run.options;
-        // A failure with other parameters is of no use to these; a finished run with others is
-        // somebody's, and refused.
+        // A failure with other parameters or in another version is of no use to these; a finished
+        // run with others is somebody's, and refused.
         const auto failure = read_failure(run);
-        options.force = failure && is_final(*failure) && failure->scene_hash != scene_hash;
+        options.force = failure && is_final(*failure) && !is_of(*failure, run.scene);
         options.resume = !options.force;
         std::error_code ignored;
         fs::remove(failure_of(run), ignored);
@@ -97,8 +104,10 @@ int make(const BatchRun& run) {
     if (!ending.message.empty()) {
         const std::string reason = ending.message.substr(0, ending.message.find('\n'));
         try {
-            write_object(failure_of(run),
-                         {{"exit_code", code}, {"reason", reason}, {"scene_hash", scene_hash}});
+            write_object(failure_of(run), {{"exit_code", code},
+                                           {"reason", reason},
+                                           {"scene_hash", hash_of(run.scene)},
+                                           {"version", version}});
         } catch (const StorageError&) {
             // the exit code says it
         }

@@ -27,9 +27,9 @@ namespace {
 Ending out_of_memory() {
     const double need = noted_memory_need();
     return {ExitCode::storage_failed,
-            need > 0.0
-                ? fmt::format("memory is short: about {:.0f} MB are needed", std::ceil(need / 1e6))
-                : "memory is short"};
+            need > 0.0 ? fmt::format("memory is short: about {:.0f} MB are needed{}",
+                                     std::ceil(need / 1e6), words_of_address_limit())
+                       : "memory is short" + words_of_address_limit()};
 }
 
 /// A thread or process that could not be started: it needs room for a stack, which only a limit of

@@ -6,6 +6,7 @@
 #include "apps/support/cache_folder.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
 #include "dem/genesis/genesis.hpp"
 #include "dem/hash.hpp"
@@ -74,7 +75,7 @@ void keep(const State& state, const fs::path& cache, const std::string& asked, L
         write_snapshot(cache, state, {}, record);
     } catch (const std::exception& error) {
         log.say(std::string("warning: the hanging wall cannot be kept for later runs: ") +
-                error.what());
+                words_of(error));
     }
 }
 
@@ -161,7 +162,8 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
     const fs::path cache = genesis_cache_path(scene, parts);
     if (cache.empty()) {
         log.say("warning: the hanging wall cannot be kept for later runs: HOME is not set, and "
-                "there is no folder for temporary files; XDG_CACHE_HOME may name one");
+                "there is no folder for temporary files that is yours alone; XDG_CACHE_HOME may "
+                "name one");
         return make_anew(scene, parts, report, stop, threads);
     }
     const std::string asked = asked_for(scene, parts);

@@ -36,16 +36,18 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
 }
 
 MemoryError memory_error(const Scene& scene) {
-    return MemoryError(fmt::format("memory is short: the run needs about {:.0f} MB",
-                                   std::ceil(predict(scene).memory / 1e6)));
+    return MemoryError(fmt::format("memory is short: the run needs about {:.0f} MB{}",
+                                   std::ceil(predict(scene).memory / 1e6),
+                                   words_of_address_limit()));
 }
 
 } // namespace
 
 RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList outputs) {
     const fs::path& output = options.output;
-    const auto lock = take_output(folder_use(scene, options.end(scene.extension.distance)), output,
-                                  options.existing());
+    FolderUse use = folder_use(scene, options.end(scene.extension.distance));
+    use.with_report = options.report && scene.output.report;
+    const auto lock = take_output(use, output, options.existing());
     if (!lock)
         return RunOutcome::finished;
 

@@ -144,11 +144,12 @@ void RunView::begin_record() {
     rocks = known_rocks(scene);
 }
 
-void RunView::go_on_with(const fs::path& snapshot, RunRecord earlier, const std::string& writer) {
+void RunView::go_on_with(const fs::path& snapshot, RunRecord earlier) {
     kept = snapshot;
     record = std::move(earlier);
     rocks = recorded_rocks(options.output);
     std::vector<std::string>& versions = record.earlier_versions;
+    const std::string writer = std::exchange(record.written_by, {});
     if (writer != version && std::ranges::find(versions, writer) == versions.end())
         versions.push_back(writer);
     if (!versions.empty())

@@ -109,9 +109,7 @@ public:
     void begin_record();
 
     /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
-    /// @param writer  version of the program that kept it
-    void go_on_with(const std::filesystem::path& snapshot, archive::RunRecord earlier,
-                    const std::string& writer);
+    void go_on_with(const std::filesystem::path& snapshot, archive::RunRecord earlier);
 
     PartWatch watch(Part part) { return {record.seconds_by_part, part}; }
 

@@ -71,7 +71,7 @@ bool Session::resume() {
             if (run_.driver)
                 run_.driver->require_own(snapshot.state);
             simulation_.resume(std::move(snapshot.state));
-            run_.go_on_with(*path, std::move(snapshot.record), snapshot.version);
+            run_.go_on_with(*path, std::move(snapshot.record));
         } catch (const UnreadableFile&) { // it may be good: to begin anew would replace it
             throw;
         } catch (const StorageError& error) {

@@ -7,6 +7,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "dem/hash.hpp"
@@ -345,9 +346,9 @@ void run_flexure(const FlexurePlan& plan, const RunOptions& options) {
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();
     try {
-        draw_flexure(output, {.provenance = json["provenance"]});
+        draw_flexure(output, output / "figures", {.provenance = json["provenance"]});
     } catch (const std::exception& error) {
-        log.say(std::string("warning: no figure: ") + error.what());
+        log.say(std::string("warning: no figure: ") + words_of(error));
     }
     write_summary(seconds_since(drawing));
     log.say(fmt::format(

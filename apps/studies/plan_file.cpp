@@ -127,7 +127,8 @@ nlohmann::ordered_json measure_schema(MeasuredAt place) {
         return {{"type", "string"}, {"enum", at_moments}};
     return {
         {"type", "string"},
-        {"anyOf", {{{"enum", at_end}}, {{"pattern", fmt::format("^({})@[0-9.eE+-]+$", pattern)}}}}};
+        {"anyOf",
+         {{{"enum", at_end}}, {{"pattern", fmt::format("^({})@[0-9.eE+-]+(k?m)?$", pattern)}}}}};
 }
 
 } // namespace listric

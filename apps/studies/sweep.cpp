@@ -17,8 +17,10 @@
 #include "apps/studies/sweep_table.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/text.hpp"
+#include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,6 +84,8 @@ public:
     bool carry_out() {
         const std::vector<SweepRow> rows = request_.merge.empty() ? make() : merge();
         write_text(output_ / "sweep.csv", to_csv(plan_, points_, rows));
+        if (!request_.merge.empty())
+            warn_of_versions(rows);
         const auto failed =
             std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); });
         log_.say(fmt::format("{}: {} runs{}", (output_ / "sweep.csv").string(), rows.size(),
@@ -125,11 +129,31 @@ private:
         const auto differs = there.empty() ? std::nullopt
                                            : scene_difference(scene_values(there),
                                                               scene_values(to_toml(scene_of(row))));
-        if (differs)
+        if (differs) {
+            const auto [there_is, asked] = shown_apart(differs->one, differs->other);
             throw UsageError(fmt::format("--merge: {}: is of another plan: {} = {} there, {} in {}",
-                                         file.string(), shown(differs->parameter),
-                                         shown(differs->one), shown(differs->other),
+                                         file.string(), shown(differs->parameter), there_is, asked,
                                          request_.plan.string()));
+        }
+        const std::string state = text_at(object_in(row.folder / "summary.json"), "state_hash");
+        if (!state.empty() && state != row.state_hash)
+            throw UsageError(
+                fmt::format("--merge: {}: is newer than its row in {}: make that "
+                            "task's table again, by its call with --task",
+                            (row.folder / "summary.json").string(),
+                            (row.folder / "../../sweep.csv").lexically_normal().string()));
+    }
+
+    /// Tells of rows that other versions have made.
+    void warn_of_versions(const std::vector<SweepRow>& rows) {
+        std::set<std::string> makers;
+        for (const SweepRow& row : rows)
+            if (!row.failed() && row.made_by != version)
+                makers.insert(row.made_by);
+        if (!makers.empty())
+            log_.say(fmt::format("warning: not all runs are of this version, {}: some are by {} "
+                                 "(column made_by); numbers may differ",
+                                 version, fmt::join(makers, "; ")));
     }
 
     /// The rows that are asked for, seeds of a point together: their packings differ, so that runs
@@ -254,7 +278,7 @@ private:
         try {
             draw_sheet(rows);
         } catch (const std::exception& error) {
-            log_.say(std::string("warning: no sheet.png: ") + error.what());
+            log_.say(std::string("warning: no sheet.png: ") + words_of(error));
         }
     }
 

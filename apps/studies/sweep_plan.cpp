@@ -6,6 +6,7 @@
 #include "apps/scene/schema_parts.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/text.hpp"
 #include "dem/random.hpp"
@@ -202,10 +203,38 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     return parameter;
 }
 
-SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on) {
+/// The moment of a measure, m: a length with its unit or, as the keys of a plan, in metres. What
+/// varies may be the clock: then nobody knows the snapshots yet.
+double read_moment(const Entry& entry, const SweepMeasure& measure, std::string_view moment,
+                   const std::optional<Scene>& scene) {
+    const Length length = read_length(moment);
+    const auto metres = length.objection.empty() ? std::optional(length.metres)
+                                                 : parse_number(moment); // as plans of before
+    const auto example = [&](const char* text) { return fmt::format("{}@{}", measure.name, text); };
+    if (!metres || !(*metres >= 0.0))
+        fail(entry, fmt::format("after @ comes an extension in metres or with its unit, such as "
+                                "{} or {}",
+                                example("5000"), example("5km")));
+    if (!scene)
+        return *metres;
+    const double interval = scene->output.interval, end = scene->extension.distance;
+    const double near = 0.005 * interval;
+    if (*metres > end + near)
+        fail(entry, fmt::format("@{}: {:g} m is beyond the runs, which end at {:g} m", moment,
+                                *metres, end));
+    if (std::abs(std::remainder(*metres, interval)) > near && *metres < end - near)
+        warn(fmt::format("{}: there is no snapshot at {:g} m, the nearest is taken: they come "
+                         "every {:g} m (output.interval_m) and at the end, {:g} m",
+                         measure.text, *metres, interval, end));
+    return *metres;
+}
+
+/// @param scene  of all runs; none if its clock varies
+SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on,
+                          const std::optional<Scene>& scene) {
     const auto* text = entry.node.as_string();
     if (!text)
-        fail_type(entry, "the name of a measure, NAME or NAME@METRES");
+        fail_type(entry, "the name of a measure, NAME or NAME@5km");
     SweepMeasure measure{text->get(), text->get(), std::nullopt};
     const std::size_t sign = measure.text.find('@');
     if (measure.text.empty() || measure.text.find_first_of(", \"") != std::string::npos ||
@@ -213,9 +242,7 @@ SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on
         fail(entry, "is no name of a measure (docs/measures.md)");
     if (sign != std::string::npos) {
         measure.name = measure.text.substr(0, sign);
-        measure.at = parse_number(std::string_view(measure.text).substr(sign + 1));
-        if (!measure.at || !(*measure.at >= 0.0))
-            fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
+        measure.at = read_moment(entry, measure, measure.text.substr(sign + 1), scene);
     }
     const std::string objection =
         archive::objection_to_measure(measure.name, measure.at.has_value(), on, program_effects());
@@ -321,17 +348,20 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     need(top, "scene", !plan.scene.empty());
     if (is_path(plan.scene))
         plan.scene = (file.parent_path() / plan.scene).string();
-    std::vector<std::string> on = effect_names(scene_at(plan, {}, plan.first_seed));
+    std::optional<Scene> scene = scene_at(plan, {}, plan.first_seed);
+    std::vector<std::string> on = effect_names(*scene);
     for (const Entry& entry : tables(top, "vary")) { // "table.key" switches an effect on
         const std::string name = entry.node.as_table()->get_as<std::string>("parameter")
                                      ? **entry.node.as_table()->get_as<std::string>("parameter")
                                      : std::string();
         on.push_back(name.substr(0, name.find('.')));
+        if (on.back() == "output" || on.back() == "extension" || on.back().starts_with("stage"))
+            scene.reset();
     }
     const toml::node* const measures = document.get("measures");
     need(top, "measures", measures);
     for (const Entry& element : elements({*measures, "measures"}, "an array of names of measures"))
-        plan.measures.push_back(read_measure(element, on));
+        plan.measures.push_back(read_measure(element, on, scene));
     const std::vector<Entry> varied = tables(top, "vary");
     need(top, "[[vary]]", !varied.empty());
     check_number(top, plan, varied);

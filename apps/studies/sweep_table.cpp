@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 namespace listric {
@@ -33,6 +33,11 @@ std::string cell(std::string text) {
     std::ranges::replace(text, '"', '\'');
     std::ranges::replace(text, '\n', ' ');
     return text;
+}
+
+std::string replaced_once(std::string text, std::string_view what, std::string_view by) {
+    const std::size_t at = text.find(what);
+    return at == text.npos ? text : text.replace(at, what.size(), by);
 }
 
 /// Whether values go up by factors, as those of permeability do: three or more, the greatest at
@@ -68,10 +73,19 @@ std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
 std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoint> points,
                                  const std::filesystem::path& file) {
     const std::string text = read_text(file);
+    if (!text.ends_with('\n'))
+        throw StorageError(fmt::format("{}: is cut short (its last line does not end): make that "
+                                       "task's table again, by its call with --task",
+                                       file.string()));
     const auto refuse = [&](const std::string& line) {
         throw UsageError(fmt::format("{}: is of another plan: {}", file.string(), line));
     };
     const std::string first = header(plan), found = text.substr(0, text.find('\n'));
+    if (found == replaced_once(first, ",made_by", ""))
+        throw UsageError(fmt::format("{}: an earlier version made it, which did not say so (it has "
+                                     "no column made_by): make that task's table again, by its "
+                                     "call with --task",
+                                     file.string()));
     if (found != first)
         refuse(shown_start(found, 200));
     const auto all = static_cast<std::size_t>(1 + std::ranges::count(first, ','));
@@ -88,14 +102,22 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
                 refuse_row();
             return *value;
         };
+        const auto whole = [&](const std::string& cell) {
+            int value = 0;
+            const char* const end = cell.data() + cell.size();
+            if (const auto [at, error] = std::from_chars(cell.data(), end, value);
+                at != end || error != std::errc())
+                refuse_row();
+            return value;
+        };
         if (cells.size() != all)
             refuse_row();
-        const double run = number(cells[0]);
-        if (!(run >= 1.0 && run <= static_cast<double>(points.size())))
+        const int run = whole(cells[0]);
+        if (!(run >= 1 && static_cast<std::size_t>(run) <= points.size()))
             refuse_row();
         SweepRow row;
         row.run = static_cast<std::size_t>(run);
-        row.seed = std::atoi(cells[1].c_str());
+        row.seed = whole(cells[1]);
         for (std::size_t k = 2; k < before; ++k)
             if (cells[k] != points[row.run - 1][k - 2].text)
                 refuse_row();

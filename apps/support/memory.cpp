@@ -1,9 +1,12 @@
 #include "apps/support/memory.hpp"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <sys/resource.h>
 
 namespace listric {
 
@@ -16,6 +19,19 @@ std::atomic<double> need = 0.0;
 void note_memory_need(double bytes) { need = bytes; }
 
 double noted_memory_need() { return need; }
+
+std::string words_of(const std::exception& error) {
+    return dynamic_cast<const std::bad_alloc*>(&error) ? "memory is short" : error.what();
+}
+
+std::string words_of_address_limit() {
+    rlimit addresses{};
+    if (getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur == RLIM_INFINITY)
+        return "";
+    return fmt::format("; the limit of {:.0f} MB (ulimit -v) is for the program and its libraries, "
+                       "too",
+                       static_cast<double>(addresses.rlim_cur) / 1e6);
+}
 
 namespace {
 

@@ -139,6 +139,26 @@ std::string number_objection(std::string_view given) {
     return "";
 }
 
+Length read_length(std::string_view given) {
+    constexpr double most = 1e7; // m
+    const std::string_view text = trimmed(given);
+    const double unit = text.ends_with("km") ? 1e3 : 1.0;
+    const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
+    const std::string_view number = text.substr(0, text.size() - letters);
+    const auto value = parse_number(number);
+    if (value && letters == 0 && *value > 0.0)
+        return {0.0, fmt::format("a length needs its unit: {0}km or {0}m; a decimal comma is a "
+                                 "point here",
+                                 shown_start(number))};
+    if (value && *value >= 0.0 && *value * unit <= most)
+        return {*value * unit};
+    std::string what = value ? "" : number_objection(number);
+    if (const auto unknown = what.find("; write the number alone"); unknown != what.npos)
+        what.erase(unknown); // units are km and m here
+    return {0.0, fmt::format("a length of at least 0 with its unit, such as 5km or 500m{}",
+                             what.empty() ? "" : "; this is " + what)};
+}
+
 std::string no_number(std::string_view text) {
     const std::string what = number_objection(text);
     return fmt::format("\"{}\" is not a finite number{}{}", shown_start(text),

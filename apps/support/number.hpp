@@ -15,6 +15,15 @@ std::optional<double> parse_number(std::string_view text);
 /// where nobody can tell.
 std::string number_objection(std::string_view text);
 
+/// A length as people write it, or the objection to it and the cure.
+struct Length {
+    double metres = 0.0;
+    std::string objection = {}; ///< empty: there is none
+};
+
+/// "5km" or "5000m". A number without a unit may mean either, so that none but 0 is taken.
+Length read_length(std::string_view text);
+
 /// "\"1012,75\" is not a finite number: a decimal comma; write 1012.75"
 std::string no_number(std::string_view text);
 

@@ -107,6 +107,20 @@ std::string shown_start(std::string_view text, std::size_t most) {
     return shown(text.substr(0, most)) + "...";
 }
 
+std::pair<std::string, std::string> shown_apart(std::string_view one, std::string_view other) {
+    constexpr std::size_t before = 20, most = 60; // bytes
+    const auto [at, end] = std::ranges::mismatch(one, other);
+    auto from = static_cast<std::size_t>(at - one.begin());
+    from = one.size() > most || other.size() > most ? from - std::min(from, before) : 0;
+    while (from > 0 && (byte_at(one, from) & 0xc0) == 0x80) // not within a character
+        --from;
+    const auto part = [&](std::string_view text) {
+        return (from > 0 ? "..." : "") +
+               shown_start(text.substr(std::min(from, text.size())), most);
+    };
+    return {part(one), part(other)};
+}
+
 std::string cut_to(std::string_view text, std::size_t columns) {
     constexpr std::string_view dots = "...";
     const std::size_t room = columns > 2 * dots.size() ? columns - dots.size() : columns;

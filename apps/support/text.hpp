@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace listric {
 
@@ -17,6 +18,9 @@ std::string shown(std::string_view text);
 
 /// The first characters of a text as shown() has them, and "..." where it goes on.
 std::string shown_start(std::string_view text, std::size_t most = 60);
+
+/// Two texts that differ, for a message: of long ones the part in which they begin to.
+std::pair<std::string, std::string> shown_apart(std::string_view one, std::string_view other);
 
 /// The beginning of a text without control characters that takes no more than so many columns of a
 /// terminal; "..." for what is cut off, where there is room for that.

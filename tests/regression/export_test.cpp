@@ -247,7 +247,7 @@ TEST_F(ExportTest, FormatsAgreeWithEachOtherAndWithTheRun) {
 
 TEST_F(ExportTest, DiscsAndTheirGsdFile) {
     run_it(load(small_scene));
-    Ended ended = call({"discs", output, "--at", "200"});
+    Ended ended = call({"discs", output, "--at", "200m"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const fs::path csv = file("discs", "csv");
     EXPECT_EQ(ended.out, csv.string() + "\n");
@@ -303,8 +303,8 @@ TEST_F(ExportTest, BadCallsSayWhatIsWrongInOneLine) {
                    "export horizons: no format gsd; allowed: csv, geojson, gmt");
     expect_refused({"discs", output, "--format", "csv,gmt"}, "export discs: no format gmt");
     expect_refused({"faults", folder.string()}, "is this a run's folder?");
-    expect_refused({"faults", output, "--at", "5000"},
-                   "--at 5000: no snapshot there; there are some from 0 to ");
+    expect_refused({"faults", output, "--at", "5000m"},
+                   "--at 5000m: no snapshot there; there are some from 0 to ");
     expect_refused({"base", output}, "the base of this run is rigid");
     setenv("LISTRIC_PYTHON", "/bin/false", 1);
     expect_refused({"discs", output, "--format", "gsd"}, "install python3-gsd");

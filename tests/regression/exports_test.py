@@ -186,7 +186,7 @@ class Exports(unittest.TestCase):
 
     def test_calls_with_other_options_write_other_files(self):
         formats = ("--format", "csv,geojson,gmt")
-        calls = [("well", *formats, *words) for words in ((), ("--x", "2km"), ("--x", "3km,2km"), ("--x", "2000.5,2000.25"),
+        calls = [("well", *formats, *words) for words in ((), ("--x", "2km"), ("--x", "3km,2km"), ("--x", "2000.5m,2000.25m"),
                                                           ("--at", "1km"), ("--at", "1km", "--x", "2km"))]
         calls += [("seismic", "--at", "4km", "--format", "segy,npy", *words) for words in (
             (), ("--depth",), ("--frequency", "40"), ("--lateral", "500"), ("--depth", "--frequency", "40", "--lateral", "500"))]

@@ -95,9 +95,9 @@ class Figures(unittest.TestCase):
         made = {file.name for file in (folder / "figures").iterdir()} - {"caption.txt"}
         self.assertEqual({name.rpartition("-")[2] for name in made}, {"0.05km.png"})
         self.assertIn("strain-0.05km.png", made)
-        far = self.listric("figures", folder, "--at", "300")
+        far = self.listric("figures", folder, "--at", "300m")
         self.assertEqual(far.returncode, 2)
-        self.assertIn("--at 300: no snapshot there; there are some from 0 to 100", far.stdout)
+        self.assertIn("--at 300m: no snapshot there; there are some from 0 to 100", far.stdout)
 
     def test_times_of_a_short_run_are_years(self):
         ended = self.listric("run", "scene.toml", "--no-report", "--threads", "1", "--set", "extension.rate_m_per_a=0.5", "--output", "short",

@@ -2,6 +2,7 @@
 beside sources that are built in a moment; dpkg, apt and sudo are scripts that note what is asked of them.
 """
 
+import fcntl
 import os
 import pathlib
 import pty
@@ -118,6 +119,52 @@ class Launcher(unittest.TestCase):
         self.assertFalse((self.root / "build").exists())
         for words in ("help", "run"), ("run", "--help"): # ask the program, which cannot be built
             self.call(*words, code=2)
+        (self.root / "docs").mkdir()
+        shutil.copy2(SOURCES / "docs/commands.md", self.root / "docs")
+        for words in ("nocall",), ("help", "rnu"), ("--verson",), ("rnu", "--help"):
+            self.note("missing", "g++")
+            self.assertIn("listric: no call", self.call(*words, code=2)[1])
+        self.assertEqual(self.installs(), [])
+        self.assertFalse((self.root / "build").exists())
+
+    def test_options_of_other_shells_are_not_its_own(self):
+        for options in "nounset", "errexit:noclobber:noglob", "posix", "xtrace:verbose":
+            self.assertEqual(self.call("explain", "*", SHELLOPTS=options)[0], "program: <explain><*>")
+        self.assertEqual(self.call("explain", "*", BASHOPTS="failglob:nocasematch")[0], "program: <explain><*>")
+
+    def answered(self, answer, *words):
+        """Exit code and text of a call at a terminal, at which somebody types."""
+        leader, terminal = pty.openpty()
+        process = subprocess.Popen([self.root / "listric", *words], stdin=terminal, stdout=terminal, stderr=terminal,
+                                   cwd=self.place, env={**os.environ, "PATH": self.path, "NOTES": str(self.notes)})
+        os.close(terminal)
+        os.write(leader, answer)
+        said = read_terminal(leader)
+        return process.wait(), said
+
+    def test_who_sits_at_the_terminal_is_asked(self):
+        for missing, answer, code, installs in ((["g++"], b"n\n", 2, 0), (["python3-matplotlib"], b"n\n", 0, 0),
+                                                (["g++"], b"\x04", 2, 0), (["g++"], b"\n", 0, 1), (["g++"], b"y\n", 0, 1)):
+            self.note("missing", *missing)
+            self.note("stderr")
+            self.note("calls")
+            found, said = self.answered(answer, "run", "rigid")
+            self.assertEqual((found, len(self.installs())), (code, installs), said)
+            self.assertIn(f"1 packages missing: {missing[0]}", said)
+        self.note("missing", "g++")
+        self.assertIn("no terminal to ask at", self.call("scenes")[1])
+
+    def test_a_build_of_others_is_named_and_not_waited_for_for_ever(self):
+        self.call("scenes")
+        lock = self.root / "build/native.lock"
+        self.assertRegex(lock.read_text(), r"^process \d+ of \S+, since 20")
+        with open(lock, "a") as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            _, said = self.call("scenes", code=2, LISTRIC_WAIT="1")
+            self.assertRegex(said, "waiting for another build in .*: process ")
+            self.assertRegex(said, "after 1 s: process .*LISTRIC_WAIT=7200.*LISTRIC_BUILD")
+            self.assertIn("whole seconds", self.call("scenes", code=2, LISTRIC_WAIT="x[$(id)]")[1])
+        self.call("scenes", LISTRIC_WAIT="1")
 
     def test_the_program_answers_itself(self):
         self.assertEqual(self.call("run", "--help")[0], "program: <run><--help>") # is built

@@ -248,7 +248,7 @@ class Reader(unittest.TestCase):
         kept = sorted(folder.rglob("*"))
         first = listric.Run(folder).plot("strain", at=90.0)
         self.assertEqual(sorted(folder.rglob("*")), kept)  # asking leaves nothing behind
-        listric.call("figures", folder, "--at", "90")
+        listric.call("figures", folder, "--at", "90m")
         drawn, = (folder / "figures").glob("strain-*.png")
         self.assertEqual(first._repr_png_(), drawn.read_bytes())
         with self.fails(listric.UnknownName, "did you mean strain"):
@@ -285,7 +285,7 @@ class Reader(unittest.TestCase):
         surfaces = {line["name"]: line for line in first.lines("surfaces")}
         self.assertLess({"detachment", "original surface", "free surface"}, set(surfaces))
         self.assertGreater(surfaces["detachment"]["depth_m"].max(), 1400.0)
-        self.assertEqual(self.run_.at(1e6).lines("base")[0]["start_x_m"].tolist(),
+        self.assertEqual(self.run_.at(400.0).lines("base")[0]["start_x_m"].tolist(),
                          self.run_.snapshots[-1].base_nodes["x"].tolist())
         with self.fails(listric.ProgramError, "horizon", "did you mean"):
             first.lines("horizon")
@@ -311,7 +311,7 @@ class Reader(unittest.TestCase):
 
         before = names()
         self.assertEqual(before[0], "depocentre")
-        for words in (("--x", "1km"), ("--x", "1km,1500"), ("--at", "200")):
+        for words in (("--x", "1km"), ("--x", "1km,1500m"), ("--at", "200m")):
             listric.call("export", "well", folder, *words)
             self.assertEqual(names(), before)
         listric.call("export", "well", folder)
@@ -398,12 +398,20 @@ class Reader(unittest.TestCase):
         for values in {"spacing": 0.0}, {"spacing": 1e-3}, {"spacing": "1km"}, {"extent": (0, 1)}, {"extent": 5}:
             with self.assertRaisesRegex(listric.ListricError, next(iter(values))):
                 snapshot.raster("id", **values)
-        with self.assertRaisesRegex(listric.ListricError, "extension_m = '1km': is no finite number"):
-            self.run_.at("1km")
+
+    def test_a_moment_is_as_strict_as_in_calls(self):
+        self.assertIs(self.run_.at("0.4km"), self.run_.at(400.0))
+        for moment, said in ((99e3, "from 0 to 400 m"), ("99km", "from 0 to 400 m"), (-5.0, "no snapshot there"), (0.4, "0.4km"),
+                             ("5", "with its unit"), ("5 miles", "with its unit"), (float("nan"), "no finite number"),
+                             (None, "or a length with its unit"), ([1.0, 2.0], "no finite number")):
+            with self.subTest(moment=moment), self.assertRaisesRegex(listric.BadValue, said):
+                self.run_.at(moment)
+        with self.assertWarnsRegex(UserWarning, "no snapshot at 90 m; the nearest is taken, at"):
+            self.run_.at("90m")
 
     def test_the_documents_examples(self):
         text = (SOURCES / "docs/python.md").read_text()
-        text = text.replace("out/lis1", str(self.folder / "run"))
+        text = text.replace("out/lis1", str(self.folder / "run")).replace("5000.0", "400.0")
         names = {}
         for block in re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)[:2]:
             exec(block, names)

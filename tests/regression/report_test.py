@@ -769,7 +769,7 @@ class Report(Browsed):
     def test_13b_a_small_model_is_seen(self):
         scene, run = self.folder / "box.toml", self.folder / "box"
         scene.write_text(BOX)
-        ended = listric("run", scene, "--accuracy", "draft", "--until", "0.012", "--output", run, "--quiet")
+        ended = listric("run", scene, "--accuracy", "draft", "--until", "0.012m", "--output", run, "--quiet")
         self.assertEqual(ended.returncode, 0, ended.stdout)
         self.assertEqual(self.open(run / "report.html"), "true")
         self.assertTrue(self.driver.find_element("id", "moment").text.startswith("12.00 mm, 1.200 a, "))

@@ -97,7 +97,7 @@ class RunFolders(unittest.TestCase):
         (cls.folder / "small.toml").write_text(SCENE)
         (cls.folder / "box.toml").write_text(BOX)
         cls.whole = cls.folder / "whole"
-        cls.made("small.toml", "--until", "460", "--output", cls.whole)
+        cls.made("small.toml", "--until", "460m", "--output", cls.whole)
 
     @classmethod
     def call(cls, *words):
@@ -141,7 +141,7 @@ class RunFolders(unittest.TestCase):
         for threads, stops in ((2, (20, 183, 305)), (1, (75, 85, 390))):
             run = self.folder / f"stopped {threads}"
             for stop in (*stops, 460):
-                self.made("small.toml", "--until", stop, "--output", run, "--threads", threads,
+                self.made("small.toml", "--until", f"{stop}m", "--output", run, "--threads", threads,
                           "--resume")
             with self.subTest(stops=stops):
                 self.assertSameRun(run, self.whole)
@@ -153,7 +153,7 @@ class RunFolders(unittest.TestCase):
         whole, run = self.folder / "lis1", self.folder / "lis1 in parts"
         self.made(*lis1, whole, "--until", "1km")
         for stop in (480, 770, 1000):
-            self.made(*lis1, run, "--until", stop, "--threads", 2)
+            self.made(*lis1, run, "--until", f"{stop}m", "--threads", 2)
         self.assertSameRun(run, whole)
         self.assertTrue(json.loads((run / "summary.json").read_text())["faults"])
         for folder in (run, whole):
@@ -164,7 +164,7 @@ class RunFolders(unittest.TestCase):
 
     def test_interrupted_and_killed_is_as_if_it_never_was(self):
         run = self.folder / "interrupted"
-        words = [PROGRAM, "run", "small.toml", "--until", "460", "--output", str(run), "--threads", "1",
+        words = [PROGRAM, "run", "small.toml", "--until", "460m", "--output", str(run), "--threads", "1",
                  "--resume", "--quiet"]
         for number, ending in ((2, signal.SIGINT), (4, signal.SIGKILL), (5, signal.SIGTERM)):
             process = subprocess.Popen(words, cwd=self.folder, env=self.environment,
@@ -173,14 +173,14 @@ class RunFolders(unittest.TestCase):
                 time.sleep(0.002)
             process.send_signal(ending)
             process.wait()
-        self.made("small.toml", "--until", "460", "--output", run, "--resume")
+        self.made("small.toml", "--until", "460m", "--output", run, "--resume")
         self.assertSameRun(run, self.whole)
 
     def test_old_snapshots_of_stops_are_passed_over(self):
         """As earlier programs left them."""
         run, stopped = self.folder / "old", self.folder / "stop"
         shutil.copytree(self.whole, run)
-        self.made("small.toml", "--until", "230", "--output", stopped)
+        self.made("small.toml", "--until", "230m", "--output", stopped)
         stop = next((stopped / "snapshots").glob("*-00230.*"))
         shutil.copy(stop, run / "snapshots")
         shutil.rmtree(run / "export", ignore_errors=True)
@@ -188,7 +188,7 @@ class RunFolders(unittest.TestCase):
         self.assertNotIn("00230", printed)
         self.assertEqual(len(listric.Run(run).snapshots), 6)
         (run / "summary.json").unlink()
-        self.made("small.toml", "--until", "460", "--output", run, "--resume")
+        self.made("small.toml", "--until", "460m", "--output", run, "--resume")
         self.assertSameRun(run, self.whole)
 
     # --------------------------------------------------------------------------- other runs' files
@@ -198,7 +198,7 @@ class RunFolders(unittest.TestCase):
         shutil.copytree(self.whole, run)
         for name in ("scene.toml", "summary.json"):
             (run / name).unlink()
-        words = ("run", "small.toml", "--seed", "7", "--quiet", "--output", run, "--until", "60")
+        words = ("run", "small.toml", "--seed", "7", "--quiet", "--output", run, "--until", "60m")
         self.assertRefused(self.call(*words), run, "holds an unfinished run", "--force")
         snapshots = run / "snapshots"
         self.assertRefused(self.call(*words, "--resume"), snapshots, "seed = 1 there, 7 in this call",
@@ -225,7 +225,7 @@ class RunFolders(unittest.TestCase):
         shutil.copytree(self.whole, run)
         for name in ("scene.toml", "summary.json", "history.csv", "report.html"):
             (run / name).unlink()
-        self.made("small.toml", "--until", "460", "--output", run, "--resume")
+        self.made("small.toml", "--until", "460m", "--output", run, "--resume")
         self.assertSameRun(run, self.whole)
 
     # ------------------------------------------------------------------------------- users' files
@@ -233,7 +233,7 @@ class RunFolders(unittest.TestCase):
     def test_users_files_stay(self):
         place = self.folder / "place"
         run = place / "out"
-        self.made("small.toml", "--until", "100", "--output", run)
+        self.made("small.toml", "--until", "100m", "--output", run)
         for name in MINE:
             file = run / name
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -250,9 +250,9 @@ class RunFolders(unittest.TestCase):
                 self.assertTrue(file.exists() and file.read_text().startswith("mine"), f"{after}: {file}")
 
         small = ("run", "small.toml", "--quiet", "--threads", 1, "--output", run)
-        for words in ((*small, "--until", 130, "--resume"), (*small, "--until", 200, "--resume"),
+        for words in ((*small, "--until", "130m", "--resume"), (*small, "--until", "200m", "--resume"),
                       ("export", "surfaces", run), ("report", run),
-                      (*small, "--until", 50, "--force")):
+                      (*small, "--until", "50m", "--force")):
             ended = self.call(*words)
             self.assertEqual(ended.returncode, 0, ended.stderr)
             assertAllThere(words)
@@ -303,14 +303,14 @@ class RunFolders(unittest.TestCase):
 
     def test_moments_of_a_small_model_have_names_of_their_own(self):
         run = self.folder / "box"
-        ended = self.call("run", "box.toml", "--until", "0.0105", "--threads", 1, "--output", run)
+        ended = self.call("run", "box.toml", "--until", "0.0105m", "--threads", 1, "--output", run)
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("10.50 mm of extension", ended.stderr)
         names = {file.name for file in (run / "snapshots").iterdir()}
         self.assertLess({f"extension-{name}m.h5" for name in ("00000.00", "00000.004", "00000.008")},
                         names)
         self.assertEqual(len(names), 4)  # and the end
-        self.made("box.toml", "--until", "0.02", "--output", run, "--resume")
+        self.made("box.toml", "--until", "0.02m", "--output", run, "--resume")
         snapshots = listric.Run(run).snapshots
         rows = len((run / "history.csv").read_text().splitlines()) - 1
         self.assertEqual((len(snapshots), rows), (6, 6))
@@ -318,17 +318,17 @@ class RunFolders(unittest.TestCase):
             self.assertAlmostEqual(snapshot.extension_m, 0.004 * k, delta=1e-4)
         times = re.findall(r'timestep="([^"]*)" part="0"', (run / "paraview.pvd").read_text())
         self.assertEqual(len(set(times)), 6)
-        printed = self.call("export", "surfaces", run, "--at", "0.008").stdout.split()
+        printed = self.call("export", "surfaces", run, "--at", "0.008m").stdout.split()
         self.assertEqual([Path(name).name for name in printed],
                          ["surfaces-extension-00000.008m.csv"])
         whole = self.folder / "whole box"
-        self.made("box.toml", "--until", "0.02", "--output", whole)
+        self.made("box.toml", "--until", "0.02m", "--output", whole)
         self.assertSameRun(run, whole)
 
     def test_every_extension_once_where_windows_are_shorter_than_a_cycle(self):
         run = self.folder / "dense"
         self.made("small.toml", "--set", "output.interval_m=0.01", "--set", "output.series=none",
-                  "--no-report", "--until", "1", "--output", run)
+                  "--no-report", "--until", "1m", "--output", run)
         rows = (run / "history.csv").read_text().splitlines()[1:]
         extensions = [row.split(",")[0] for row in rows]
         self.assertEqual(len(set(extensions)), len(extensions))

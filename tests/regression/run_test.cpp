@@ -490,7 +490,7 @@ TEST_F(RunTest, ResumeWithOtherParametersIsRefusedByName) {
 TEST_F(RunTest, ResumeOfAFinishedRunWithOtherParametersIsRefusedToo) {
     const fs::path output = run(scene(), "run", {.until = 60.0});
     const Ended ended =
-        call_run(output, {"--resume", "--until", "60", "--set", "cycle.damping=0.5"});
+        call_run(output, {"--resume", "--until", "60m", "--set", "cycle.damping=0.5"});
     EXPECT_EQ(ended.code, 2);
     EXPECT_THAT(ended.err, HasSubstr("damping"));
 }
@@ -500,7 +500,7 @@ TEST_F(RunTest, ResumeDoesNotMindOtherComments) {
     std::string text = contents(output / "scene.toml");
     text.replace(text.find("# local non-viscous"), 19, "# words of yesterday, \"or so\"");
     write(output / "scene.toml", text);
-    EXPECT_EQ(call_run(output, {"--resume", "--until", "60"}).code, 0);
+    EXPECT_EQ(call_run(output, {"--resume", "--until", "60m"}).code, 0);
 }
 
 // -------------------------------------------------------------------------------------- damaged
@@ -544,7 +544,7 @@ TEST_F(RunTest, WithoutAnyGoodSnapshotTheRunBeginsAgain) {
     auto how = damages.begin();
     for (const fs::path& snapshot : list_snapshots(output))
         damage(snapshot, (how++)->second);
-    const Ended resumed = call_run(output, {"--resume", "--until", "100"});
+    const Ended resumed = call_run(output, {"--resume", "--until", "100m"});
     EXPECT_EQ(resumed.code, 0);
     EXPECT_THAT(resumed.err, HasSubstr("warning"));
     expect_same_run(output, whole);
@@ -619,7 +619,7 @@ TEST_F(RunTest, ASnapshotOfAnotherFormatIsRefusedAndTheRunIsKept) {
             write(file, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         }
         const auto before = tree(output / "snapshots");
-        const Ended refused = call_run(output, {"--resume", "--until", "133.7"});
+        const Ended refused = call_run(output, {"--resume", "--until", "133.7m"});
         EXPECT_EQ(refused.code, 2);
         EXPECT_THAT(refused.err, AllOf(HasSubstr(std::string("format ") + digit),
                                        HasSubstr("reads formats 5 to 8"), HasSubstr("version"),
@@ -639,7 +639,7 @@ TEST_F(RunTest, AFinishedRunIsReplacedOnlyByForce) {
                                    HasSubstr("--resume"), HasSubstr("--force")));
     EXPECT_TRUE(tree(output) == before);
 
-    EXPECT_EQ(call_run(output, {"--force", "--seed", "2", "--until", "60"}).code, 0);
+    EXPECT_EQ(call_run(output, {"--force", "--seed", "2", "--until", "60m"}).code, 0);
     expect_same_run(output, run(scene({"seed=2"}), "new", {.until = 60.0}));
     EXPECT_EQ(names_ending(output, ".h5"), names_ending(folder / "new", ".h5"));
 }
@@ -1122,7 +1122,7 @@ TEST_F(RunTest, AnimationAndSheetOfSeveralMoments) {
 }
 
 TEST_F(RunTest, WithoutMatplotlibARunWarnsAndFinishes) {
-    const Ended ended = call_run(folder / "run", {"--until", "20"});
+    const Ended ended = call_run(folder / "run", {"--until", "20m"});
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.err, AllOf(HasSubstr("warning"), HasSubstr("matplotlib")));
     EXPECT_EQ(summary(folder / "run")["finished"], true);

@@ -14,6 +14,7 @@ namespace listric::number_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(Number, AsFilesWriteIt) {
     for (const auto& [text, value] :
@@ -77,6 +78,25 @@ TEST(Number, IsToldForWhatItIs) {
     EXPECT_EQ(no_number("a\x1b[31m"), "\"a\\x1b[31m\" is not a finite number");
     EXPECT_LT(no_number(std::string(100'000, '1')).size(), 120u);
     EXPECT_LT(no_number(std::string(100'000, ',')).size(), 120u);
+}
+
+TEST(Number, LengthsHaveTheirUnit) {
+    EXPECT_EQ(read_length("5km").metres, 5e3);
+    EXPECT_EQ(read_length(" 500 m").metres, 500.0);
+    for (const char* nought : {"0", "0m", "0.0km"})
+        EXPECT_EQ(read_length(nought).objection, "") << nought;
+    for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
+             {"5", "a length needs its unit: 5km or 5m"},
+             {"5000", "5000km or 5000m"},
+             {"2k", "with its unit, such as 5km or 500m; this is a number and k"},
+             {"5 miles", "such as 5km"},
+             {"-5km", "at least 0"},
+             {"1e9km", "at least 0"},
+             {"5,5km", "a decimal comma; write 5.5"},
+             {"", "empty"},
+             {"km", "empty"}})
+        EXPECT_THAT(read_length(text).objection, HasSubstr(said)) << text;
+    EXPECT_THAT(read_length("2k").objection, Not(HasSubstr("unit of the name")));
 }
 
 } // namespace

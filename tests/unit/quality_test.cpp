@@ -74,7 +74,7 @@ TEST(Quality, AreasAreNotJudgedWhereTheirBoundsDoNotHold) {
     summary["extension_m"] = 4999.0;
     EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::note);
     summary["extension_m"] = 4999.992; // of a run to 5 km, whose cycles make 0.02 m each
-    summary["cycle"] = 249999.6;
+    summary["cycles"] = 249999.6;
     EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::doubtful);
     summary["extension_m"] = 5000.0;
     EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::doubtful);

@@ -245,6 +245,18 @@ TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
     EXPECT_THROW(read_sweep(plan, points, file), UsageError);
     std::ofstream(file) << replaced(text, "0.2", "0.3");
     EXPECT_THROW(read_sweep(plan, points, file), UsageError);
+    for (const char* seed : {"1,6x,", "1,6.5,", "1,,", "1,1e1,", "1,99999999999,"}) {
+        std::ofstream(file) << replaced(text, "1,6,", seed);
+        EXPECT_THROW(read_sweep(plan, points, file), UsageError) << seed;
+    }
+    for (const std::size_t cut : {1u, 2u, 4u}) { // an empty cell is no missing number
+        std::ofstream(file) << text.substr(0, text.size() - cut);
+        EXPECT_THROW(read_sweep(plan, points, file), StorageError) << cut;
+    }
+    const std::string earlier = replaced(replaced(text, "made_by,", ""), "1.0.0+1,", "");
+    std::ofstream(file) << earlier;
+    EXPECT_THAT([&] { read_sweep(plan, points, file); },
+                testing::ThrowsMessage<UsageError>(HasSubstr("an earlier version made it")));
 }
 
 /// Four factors of two values, each point by `seeds` seeds.

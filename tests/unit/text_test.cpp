@@ -64,5 +64,15 @@ TEST(Text, NamesOfOneFolder) {
         EXPECT_NE(objection_to_name(name), "") << name;
 }
 
+TEST(Text, LongTextsThatDifferAreShownWhereTheyPart) {
+    EXPECT_EQ(shown_apart("0.5", "0.7"), std::pair(std::string("0.5"), std::string("0.7")));
+    const std::string same(3000, 'a');
+    const auto [one, other] = shown_apart(same + "1, 2", same + "3");
+    EXPECT_EQ(one, "..." + std::string(20, 'a') + "1, 2");
+    EXPECT_EQ(other, "..." + std::string(20, 'a') + "3");
+    EXPECT_LT(shown_apart(same, "").first.size(), 70u);
+    EXPECT_EQ(shown_apart(same, same).first, "..." + std::string(20, 'a'));
+}
+
 } // namespace
 } // namespace listric::text_test

@@ -2,6 +2,8 @@
 
 import difflib
 import math
+import re
+from contextlib import contextmanager
 
 
 class ListricError(Exception):
@@ -33,6 +35,30 @@ class UnknownName(ListricError, KeyError):
 
 class BadValue(ListricError, ValueError):
     """A value that a call cannot take."""
+
+
+@contextmanager
+def reading(path, cure="run the scene again"):
+    """Whatever goes wrong within is the fault of a file: a RunError that names it."""
+    try:
+        yield
+    except ListricError:
+        raise
+    except OSError as error:
+        raise RunError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except Exception as error:  # of whatever type: what is damaged may have any shape
+        raise RunError(f"{path}: is damaged ({type(error).__name__}: {error}); {cure}") from error
+
+
+def metres(name, value) -> float:
+    """Metres of a number, or of a length with its unit as the program's calls have it: "5km". Throws BadValue."""
+    if isinstance(value, str):
+        found = re.fullmatch(r"\s*([0-9.]+(?:[eE][+-]?[0-9]+)?)\s*(k?)m\s*", value)
+        try:
+            return float(found[1]) * (1000.0 if found[2] else 1.0)
+        except (TypeError, ValueError):
+            raise BadValue(f"{name} = {value!r}: a length of at least 0 with its unit, such as 5km or 500m") from None
+    return finite_number(name, value, "give metres, such as 5000.0, or a length with its unit: '5km'")
 
 
 def finite_number(name, value, cure) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 
 from .errors import RunError, UnknownName
 from .program import call
-from .stand_in import stand_in
+from .stand_in import at_words, stand_in
 from .table import read_csv
 
 
@@ -19,9 +19,10 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
     exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"   # of a call with options: another name
     if is_newer(exported, path) and is_of_today(exported):
         return read_lines(exported)
-    with stand_in(snapshot, without="export") as folder:
-        call("export", "well" if kind == "burial" else kind, folder, "--format", "csv", "--at", snapshot.travel_m)
-        written = {file.name.split("-")[0]: file for file in (folder / "export").glob("*-*.csv")}
+    with stand_in(snapshot) as (run, folder):
+        call("export", "well" if kind == "burial" else kind, run, "--format", "csv", "--at", at_words(snapshot),
+             "--output", folder)
+        written = {file.name.split("-")[0]: file for file in folder.glob("*-*.csv")}
         if kind not in written:
             raise UnknownName(kind, written, f"lines of {path} at {snapshot.travel_m:g} m")
         return read_lines(written[kind])
@@ -43,8 +44,11 @@ def is_newer(exported: Path, snapshot: Path) -> bool:
 
 def is_of_today(exported: Path) -> bool:
     """Whether a file has the column depth_reference: before, calls with other options wrote under its name, too."""
-    with open(exported, encoding="utf-8", errors="replace") as file:
-        return "depth_reference" in file.readline().strip().split(",")
+    try:
+        with open(exported, encoding="utf-8", errors="replace") as file:
+            return "depth_reference" in file.readline().strip().split(",")
+    except OSError:
+        return False
 
 
 def read_lines(path: Path) -> list[dict]:

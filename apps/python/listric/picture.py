@@ -4,7 +4,7 @@ from pathlib import Path
 
 from .errors import UnknownName
 from .program import call
-from .stand_in import stand_in
+from .stand_in import at_words, stand_in
 
 KINDS = ("strata", "strain", "bonds", "behaviour", "sediment", "kinematics", "overview")
 
@@ -32,9 +32,9 @@ def draw_section(snapshot, kind: str) -> Picture:
     section, too, and ProgramError."""
     if kind not in KINDS:
         raise UnknownName(kind, KINDS, "plot")
-    with stand_in(snapshot, without="figures") as folder:
-        call("figures", folder, "--at", snapshot.travel_m)
-        drawn = {path.name.split("-")[0]: path for path in (folder / "figures").glob("*-*.png")}
+    with stand_in(snapshot) as (run, folder):
+        call("figures", run, "--at", at_words(snapshot), "--output", folder)
+        drawn = {path.name.split("-")[0]: path for path in folder.glob("*-*.png")}
         if kind not in drawn:
             there = [one for one in KINDS if one in drawn]
             raise UnknownName(kind, there, f"plot of {snapshot.path} at {snapshot.travel_m:g} m")

@@ -13,7 +13,7 @@ import tomllib
 import warnings
 from pathlib import Path
 
-from .errors import ProgramError, finite_number
+from .errors import ProgramError, metres
 
 _HERE = Path(__file__).resolve().parent
 
@@ -90,7 +90,7 @@ def _stop(process) -> None:
 
 
 def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=None, until_m=None,
-             output=None, resume=False, force=False, quiet=True):
+             output=None, resume=False, force=False, figures=True, report=True, quiet=True):
     """Runs a scene to its end and returns the Run.
 
     scene      name (`listric scenes`), or a path to a file
@@ -99,10 +99,11 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
     accuracy   "draft", "standard", "fine" or "sandbox"
     seed       of the packing and of everything random
     threads    processor cores to use
-    until_m    ends at this extension, m
+    until_m    ends at this extension, m, or a length with its unit: "5km"
     output     folder of results; without it out/NAME, by the scene's key `name` or its file's, as the program has it
     resume     goes on from the newest snapshot of that folder
     force      replaces a run that is in that folder; else this is refused
+    figures, report  False: none are made, which many short runs spend most of their time with
     quiet      False: progress on stderr; else the program's warnings are Python's
 
     Throws ProgramError.
@@ -115,11 +116,11 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
     for effect in [without] if isinstance(without, str) else without:
         words += ["--without", effect]
     options = {"--accuracy": accuracy, "--seed": seed, "--threads": threads,
-               "--until": None if until_m is None else f"{finite_number('until_m', until_m, 'give metres')}m"}
+               "--until": None if until_m is None else f"{metres('until_m', until_m)}m"}
     for option, value in options.items():
         if value is not None:
             words += [option, value]
-    flags = {"--resume": resume, "--force": force, "--quiet": quiet}
+    flags = {"--resume": resume, "--force": force, "--quiet": quiet, "--no-figures": not figures, "--no-report": not report}
     _call([*words, *(flag for flag, on in flags.items() if on)], quiet)
     return Run(output)
 

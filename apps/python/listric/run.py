@@ -1,8 +1,8 @@
 """A run's folder."""
 
-import json
 import re
 import tomllib
+import warnings
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from .dictionary import dictionary, doc_of, unit_of
-from .errors import Named, RunError, UnknownName, finite_number
+from .errors import BadValue, Named, RunError, UnknownName, metres, reading
+from .origin import read_summary, reservations
 from .picture import Picture
 from .snapshot import Snapshot
 from .table import Table, html_table, read_csv
@@ -30,10 +31,13 @@ class Run:
     def __init__(self, folder):
         """Throws RunError if the folder holds no run."""
         self.folder = Path(folder)
-        if not (self.folder / "scene.toml").is_file():
+        with reading(self.folder):
+            is_run = (self.folder / "scene.toml").is_file()
+        if not is_run:
             why = "holds no run (no scene.toml)" if self.folder.is_dir() else "no such folder"
             raise RunError(f"{folder}: {why}; a run's folder is what `listric run` writes, such as "
                            "out/lis1")
+        self._is_told = False
 
     def __repr__(self) -> str:
         return f"<run {self.folder}: {len(self.snapshots)} snapshots>"
@@ -45,21 +49,42 @@ class Run:
                             for name, value in self._last_measures().items() if np.isfinite(value)))
         return f"<details><summary>{escape(repr(self)[1:-1])}</summary>{table}</details>"
 
-    @cached_property
+    @property
     def snapshots(self) -> tuple[Snapshot, ...]:
         """Throws RunError if other runs have made some of them."""
-        found = [Snapshot(path) for path in (self.folder / "snapshots").glob("extension-*m.h5")
-                 if _SNAPSHOT.fullmatch(path.name) and path.is_file()]
+        found = self._snapshots
+        self._tell_reservations()
+        return found
+
+    @cached_property
+    def _snapshots(self) -> tuple[Snapshot, ...]:
+        with reading(self.folder / "snapshots", "make it readable"):
+            found = [Snapshot(path) for path in (self.folder / "snapshots").glob("extension-*m.h5")
+                     if _SNAPSHOT.fullmatch(path.name) and path.is_file()]
         return _moments(sorted(found, key=lambda one: (one.named_extension_m, len(one.path.name))))
 
-    def at(self, extension_m: float) -> Snapshot:
-        """The snapshot nearest to an extension, with [[stage]] to a travel, m. Throws RunError if there is none at all,
-        BadValue."""
-        wanted = finite_number("extension_m", extension_m, "give metres, such as run.at(5000.0)")
-        return min(self._some_snapshots(), key=lambda one: abs(one.named_extension_m - wanted))
+    def at(self, extension_m: float | str) -> Snapshot:
+        """The snapshot at an extension, with [[stage]] at a travel: in m, or as "5km". Another moment of the run gives the
+        nearest one with a warning. Throws RunError if there is none at all, BadValue beyond the run, and for a number
+        that is a moment only in km."""
+        wanted = metres("extension_m", extension_m)
+        snapshots = self._some_snapshots()
+        moments = np.array([one.named_extension_m for one in snapshots])
+        near = 0.005 * self._interval_m()  # names of older versions are those of cycles
+        found = int(np.argmin(np.abs(moments - wanted)))
+        apart = abs(moments[found] - wanted)
+        if not -near <= wanted <= moments[-1] + near:
+            raise BadValue(f"at {wanted:g} m: no snapshot there; there are some from {moments[0]:g} to {moments[-1]:g} m")
+        if apart > 0.02 and not isinstance(extension_m, str) and np.any(np.abs(moments - 1000.0 * wanted) <= near):
+            raise BadValue(f"at {wanted:g}: numbers are metres, and there is no snapshot at {wanted:g} m; for {wanted:g} km "
+                           f"give {1000.0 * wanted:g} or '{wanted:g}km'")
+        if apart > near:
+            warnings.warn(f"{self.folder}: no snapshot at {wanted:g} m; the nearest is taken, at {moments[found]:g} m",
+                          stacklevel=2)
+        return snapshots[found]
 
-    def plot(self, kind: str = "strata", at: float | None = None) -> Picture:
-        """The section nearest to an extension, m, or the newest, as Snapshot.plot()."""
+    def plot(self, kind: str = "strata", at: float | str | None = None) -> Picture:
+        """The section at an extension, as at() has it, or the newest, as Snapshot.plot()."""
         return (self._some_snapshots()[-1] if at is None else self.at(at)).plot(kind)
 
     @cached_property
@@ -67,42 +92,38 @@ class Run:
         """history.csv: a row at the start and after every `output.interval_m`, a column per measure
         (docs/measures.md), NaN where it has no meaning; units as the program declares them, or as the last
         snapshot has them. An end between two rows has none: `summary` has its measures."""
-        return read_csv(self.folder / "history.csv", self._unit_of)
+        self._tell_reservations()
+        table = read_csv(self.folder / "history.csv", self._unit_of)
+        kept = self._rows_of_newest()
+        if kept > table.rows:
+            warnings.warn(f"{self.folder / 'history.csv'}: is older than the newest snapshot, whose history has {kept} rows "
+                          f"instead of {table.rows}: `listric run ... --resume` makes it again", stacklevel=2)
+        return table
 
     @cached_property
     def summary(self) -> Named:
         """summary.json as it stands: measures at the end of the run by name (docs/measures.md)."""
-        path = self.folder / "summary.json"
-        try:
-            return Named(json.loads(path.read_text(encoding="utf-8")), str(path))
-        except FileNotFoundError:
-            raise RunError(f"{path}: is not there: the run has not ended; `listric run ... --resume` "
-                           "goes on") from None
-        except OSError as error:
-            raise RunError(f"{path}: cannot be read: {error.strerror}") from error
-        except (ValueError, TypeError, RecursionError) as error:
-            raise RunError(f"{path}: is damaged ({error}); run the scene again") from error
+        self._tell_reservations()
+        return read_summary(self.folder)
 
     @cached_property
     def scene(self) -> Named:
         """scene.toml: every parameter in force, as `run.scene["hanging_wall"]["length_m"]`."""
         path = self.folder / "scene.toml"
-        try:
+        with reading(path):
             return Named(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
-        except OSError as error:
-            raise RunError(f"{path}: cannot be read: {error.strerror}") from error
-        except (ValueError, TypeError, RecursionError) as error:
-            raise RunError(f"{path}: is damaged ({error})") from error
 
     @property
     def faults(self) -> list[dict]:
         """The faults of summary.json in its order, a dict each with its names (docs/measures.md).
         `points_m` is an array of shape (points, 2) of x and depth; `throw_m` is {horizon: throw in m},
         numbered as `stratum` of `run.horizons`, `throw_error_m` its errors. `snapshot.lines("faults")` has those of any moment."""
-        return [{**fault, "points_m": np.array(fault["points_m"], dtype=float).reshape(-1, 2),
-                 **{name: {int(horizon): value for horizon, value in fault[name].items()}
-                    for name in ("throw_m", "throw_error_m") if isinstance(fault.get(name), dict)}}
-                for fault in self.summary["faults"]]
+        found = self.summary["faults"]
+        with reading(self.folder / "summary.json"):
+            return [{**fault, "points_m": np.array(fault["points_m"], dtype=float).reshape(-1, 2),
+                     **{name: {int(horizon): value for horizon, value in fault[name].items()}
+                        for name in ("throw_m", "throw_error_m") if isinstance(fault.get(name), dict)}}
+                    for fault in found]
 
     @property
     def horizons(self) -> list[dict]:
@@ -124,6 +145,24 @@ class Run:
         if name not in dictionary() and self.snapshots:
             return self.snapshots[-1].table("run/history").units.get(name)
         return unit_of(name)
+
+    def _interval_m(self) -> float:
+        with reading(self.folder / "scene.toml"):
+            return float(self.scene.get("output", {}).get("interval_m", 500.0))
+
+    def _rows_of_newest(self) -> int:
+        """Rows of the history that the newest snapshot has kept; 0 where none can be read."""
+        try:
+            return self.snapshots[-1].table("run/history").rows if self.snapshots else 0
+        except RunError:
+            return 0
+
+    def _tell_reservations(self) -> None:
+        """Warns once, at the first look into the run's results."""
+        if not self._is_told:
+            self._is_told = True
+            for one in reservations(self):
+                warnings.warn(f"{self.folder}: {one}", stacklevel=4)
 
     def _some_snapshots(self) -> tuple[Snapshot, ...]:
         if not self.snapshots:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import Named, RunError, UnknownName
+from .errors import ListricError, Named, RunError, UnknownName
 from .lines import exported_lines
 from .picture import Picture, draw_section
 from .raster import Raster, draw_raster
@@ -104,6 +104,13 @@ class Snapshot:
                 and (not name.startswith("output.") or name == "output.interval_m")}
 
     @property
+    def made_by(self) -> str:
+        """Versions of the program that made the run up to here: "A, B"; empty if the file does not tell."""
+        with self._open() as file:
+            earlier = _text(file["run/earlier_versions"][()]).split("\n") if "run/earlier_versions" in file else []
+            return ", ".join([*earlier, _text(file.attrs.get("version", b""))])
+
+    @property
     def scene_text(self) -> str:
         """The scene in force, as TOML."""
         with self._open() as file:
@@ -175,9 +182,9 @@ class Snapshot:
             raise RunError(f"{self.path}: is not there any more; open the run again") from None
         except PermissionError as error:
             raise RunError(f"{self.path}: cannot be read: {error.strerror}") from error
-        except (OSError, RuntimeError, KeyError, ValueError) as error:
-            if isinstance(error, UnknownName):
-                raise
+        except ListricError:
+            raise
+        except Exception as error:  # whatever h5py, or what reads by it, makes of a damaged file
             why = " ".join(str(error.args[0] if error.args else error).split())
             raise RunError(f"{self.path}: is damaged ({why}); take a copy of it, or run the scene "
                            "again") from error

@@ -8,6 +8,7 @@
 #include "apps/figures/well_figure.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
+#include "apps/support/memory.hpp"
 
 #include <exception>
 #include <future>
@@ -73,7 +74,7 @@ private:
                              report_faults(run.setting, run.parts.base, then.state, run.past),
                              folder(run), run.names()));
         } catch (const std::exception& failure) {
-            warn(run, failure.what());
+            warn(run, words_of(failure));
         }
     }
 
@@ -82,12 +83,13 @@ private:
         try {
             const RunFolder folder(run.options.output, run.scene);
             if (run.parts.base_moves)
-                draw_base(folder, {.provenance = provenance(run.scene)});
+                draw_base(folder, folder.output, folder.output / "figures",
+                          {.provenance = provenance(run.scene)});
             draw_wells(folder, std::span(&folder.snapshots.back(), 1), {},
-                       {.provenance = provenance(run.scene)});
+                       folder.output / "figures", {.provenance = provenance(run.scene)});
             draw_experiment(folder, run.past);
         } catch (const std::exception& failure) {
-            warn(run, failure.what());
+            warn(run, words_of(failure));
         }
     }
 

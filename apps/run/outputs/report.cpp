@@ -6,6 +6,7 @@
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/memory.hpp"
 
 #include <exception>
 #include <functional>
@@ -75,7 +76,7 @@ private:
         try {
             work();
         } catch (const std::exception& error) {
-            run.log.say(std::string("warning: no report: ") + error.what());
+            run.log.say(std::string("warning: no report: ") + words_of(error));
             has_failed_ = true;
         }
     }
