@@ -7,6 +7,7 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/evolution.hpp"
 #include "apps/measures/main_faults.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ namespace {
 std::vector<Quantity> quantities(const auto& declarations) {
     std::vector<Quantity> all;
     for (const auto& one : declarations)
-        all.push_back({one.name, one.unit, one.doc});
+        all.push_back({one.name, one.unit, one.label, one.doc});
     return all;
 }
 
@@ -31,7 +32,7 @@ std::vector<Quantity> quantities(const auto& declarations) {
 void add_head(std::vector<DictionaryEntry>& all) {
     const NamedNumbers row = history_row(dem::empty_state(), {});
     for (const HeadField& field : head_fields())
-        all.push_back({{field.name, field.unit, field.doc},
+        all.push_back({{field.name, field.unit, field.label, field.doc},
                        "run",
                        nullptr,
                        field.value && !field.unit.empty(),
@@ -60,12 +61,12 @@ void add_faults(std::vector<DictionaryEntry>& all) {
     std::vector<Quantity> parts;
     for (const FaultField& field : fault_fields())
         if (field.in_summary)
-            parts.push_back({field.name, field.unit, field.doc});
+            parts.push_back({field.name, field.unit, field.label, field.doc});
     for (const Measure<FaultReport>& measure : fault_report_measures())
         all.push_back({measure.quantity(), "faults", nullptr, true, measure.unit != index_unit});
     for (const Quantity& quantity : evolution_quantities())
         all.push_back({quantity, "snapshots", nullptr, false});
-    all.push_back({{"faults", "", "traced faults, longest first"},
+    all.push_back({{"faults", "", "traced faults", "traced faults, longest first"},
                    "faults",
                    nullptr,
                    false,
@@ -78,7 +79,7 @@ void add_effect(std::vector<DictionaryEntry>& all, const Effect& effect) {
         all.push_back({measure.quantity(), effect.name, &effect, measure.over != OverTime::none,
                        measure.value != nullptr});
     for (const MeasuredObjects& objects : effect.objects)
-        all.push_back({{objects.name, objects.unit, objects.doc},
+        all.push_back({{objects.name, objects.unit, objects.label, objects.doc},
                        effect.name,
                        &effect,
                        false,
@@ -98,14 +99,29 @@ std::vector<DictionaryEntry> dictionary(EffectList effects) {
     return all;
 }
 
+const Quantity* declared(std::string_view name) {
+    static const std::vector<DictionaryEntry> all = dictionary(program_effects());
+    const auto found = std::ranges::find(
+        all, name, [](const DictionaryEntry& entry) { return entry.quantity.name; });
+    return found == all.end() ? nullptr : &found->quantity;
+}
+
+std::string_view label_of(std::string_view name) {
+    const Quantity* const quantity = declared(name);
+    return quantity ? quantity->label : name;
+}
+
 nlohmann::ordered_json dictionary_json(EffectList effects) {
     using Json = nlohmann::ordered_json;
     constexpr const char* over[] = {"last", "largest", "mean", "none"};
     Json list = Json::array();
     for (const DictionaryEntry& entry : dictionary(effects)) {
         const Quantity& q = entry.quantity;
-        Json& json = list.emplace_back(
-            Json{{"name", q.name}, {"table", entry.table}, {"unit", q.unit}, {"doc", q.doc}});
+        Json& json = list.emplace_back(Json{{"name", q.name},
+                                            {"table", entry.table},
+                                            {"unit", q.unit},
+                                            {"label", q.label},
+                                            {"doc", q.doc}});
         if (q.over != OverTime::last)
             json["over"] = over[static_cast<int>(q.over)];
         if (!q.usual.empty())

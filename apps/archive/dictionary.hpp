@@ -24,7 +24,13 @@ struct DictionaryEntry {
 /// All that is declared: what every run has, and what effects add.
 std::vector<DictionaryEntry> dictionary(EffectList effects);
 
-/// As JSON: {name: {table, unit, doc, over, effect, parts}}, a list by table.
+/// Declaration of a quantity of the program's; null: nobody declares it.
+const Quantity* declared(std::string_view name);
+
+/// Its label, for people; of what nobody declares its name.
+std::string_view label_of(std::string_view name);
+
+/// As JSON: {name: {table, unit, label, doc, over, effect, parts}}, a list by table.
 nlohmann::ordered_json dictionary_json(EffectList effects);
 
 /// Unit of a column of history.csv; none: nobody declares it.

@@ -1,48 +1,36 @@
 #include "apps/archive/headline.hpp"
 
-#include "apps/archive/summary.hpp"
+#include "apps/archive/dictionary.hpp"
 #include "apps/measures/dictionary.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
-#include <utility>
 
 namespace listric::archive {
-
-namespace {
-
-std::string_view unit_of_measure(std::string_view name) {
-    for (const measures::MeasureTable& table : measures::measure_tables())
-        for (const auto& measure : table.measures)
-            if (measure.name == name)
-                return measure.unit == "1" ? "" : measure.unit;
-    return "";
-}
-
-} // namespace
 
 std::vector<Headline> headline_of(const JsonObject& summary) {
     using M = measures::Measures;
     using measures::name_of;
-    std::vector<Headline> all{{"extension_m", "extension", "m", number_at(summary, "extension_m")}};
-    const std::pair<std::string, const char*> numbers[] = {
-        {name_of<&M::basin_area>(), "basin area"},
-        {name_of<&M::area_balance>(), "basin area over extension × thickness"},
-        {name_of<&M::rollover_tilt>(), "tilt of the head block"},
-        {name_of<&M::breakaway_rotation>(), "rotation at the breakaway"},
-        {name_of<&M::halfgraben_area_share>(), "halfgraben's share of the basin"},
-        {name_of<&M::strain_top10>(), "strain in the most strained tenth"}};
-    for (const auto& [key, name] : numbers)
-        all.push_back(
-            {key, name, std::string(unit_of_measure(key)), number_at(summary, key.c_str())});
-    const std::pair<std::string, const char*> lists[] = {
-        {std::string(measures::depocentres.name), "depocentres"}, {"faults", "traced faults"}};
-    for (const auto& [key, name] : lists) {
+    const std::string numbers[] = {"extension_m",
+                                   name_of<&M::basin_area>(),
+                                   name_of<&M::area_balance>(),
+                                   name_of<&M::rollover_tilt>(),
+                                   name_of<&M::breakaway_rotation>(),
+                                   name_of<&M::halfgraben_area_share>(),
+                                   name_of<&M::strain_top10>()};
+    std::vector<Headline> all;
+    for (const std::string& key : numbers) {
+        const std::string_view unit = declared(key)->unit;
+        all.push_back({key, std::string(label_of(key)), std::string(unit == "1" ? "" : unit),
+                       number_at(summary, key.c_str())});
+    }
+    for (const std::string& key :
+         {std::string(measures::depocentres.name), std::string("faults")}) {
         const auto found = summary.find(key);
         const bool is_there = found != summary.end() && found->is_array();
         all.push_back(
-            {"number of " + key, name, "",
+            {"number of " + key, std::string(label_of(key)), "",
              is_there ? std::optional(static_cast<double>(found->size())) : std::nullopt});
     }
     return all;

@@ -10,8 +10,8 @@ namespace listric::archive {
 
 /// A result that tells runs apart at a glance.
 struct Headline {
-    std::string key; ///< in summary.json; "number of " a list's key
-    std::string name;
+    std::string key;             ///< in summary.json; "number of " a list's key
+    std::string name;            ///< its label
     std::string unit;            ///< empty: none
     std::optional<double> value; ///< none: the run does not have it
 };

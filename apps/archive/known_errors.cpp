@@ -1,5 +1,6 @@
 #include "apps/archive/known_errors.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/scene_lines.hpp"
 #include "apps/model/effects.hpp"
@@ -136,25 +137,26 @@ std::map<std::string, std::string> compared_values(const Scene& scene) {
 } // namespace
 
 const Quantity known_errors_quantity{
-    "known_errors", "",
+    "known_errors", "", "errors by recorded runs",
     "errors of twelve headline measures at the run's resolution and speed, by recorded runs"};
 
 std::span<const Quantity> error_fields() {
     static constexpr Quantity fields[] = {
-        {"measure", "", "name of the measure"},
-        {"resolution", "",
+        {"measure", "", "measure", "name of the measure"},
+        {"resolution", "", "of resolution",
          "mean of the recorded runs less that of the finest, in the measure's unit; `unknown` "
          "without such runs, as in the fields that follow"},
-        {"resolution_against", "", "the runs that it is compared with"},
-        {"resolution_record", "", "source of these numbers"},
-        {"speed", "",
+        {"resolution_against", "", "resolution, compared with",
+         "the runs that it is compared with"},
+        {"resolution_record", "", "resolution, source", "source of these numbers"},
+        {"speed", "", "of speed",
          "mean at the speed less that at the slowest recorded; from coarser or faster runs where "
          "there are none at this level"},
-        {"speed_against", "", "the runs that it is compared with"},
-        {"speed_record", "", "source of these numbers"},
-        {"spread", "", "standard deviation between seeds"},
-        {"spread_against", "", "number of seeds"},
-        {"spread_record", "", "source of these numbers"}};
+        {"speed_against", "", "speed, compared with", "the runs that it is compared with"},
+        {"speed_record", "", "speed, source", "source of these numbers"},
+        {"spread", "", "between seeds", "standard deviation between seeds"},
+        {"spread_against", "", "seeds", "number of seeds"},
+        {"spread_record", "", "seeds, source", "source of these numbers"}};
     return fields;
 }
 
@@ -222,49 +224,28 @@ std::string error_text(const std::string& key, double value) {
         return fmt::format("{:.2g} km²", value / 1e6);
     if (key.ends_with("_m"))
         return fmt::format("{:.2g} km", value / 1e3);
-    return fmt::format("{:.2g}", value);
-}
-
-std::vector<ErrorWords> error_words(const nlohmann::ordered_json& summary) {
-    std::vector<ErrorWords> rows;
-    if (!summary.is_object() || !summary.contains("known_errors") ||
-        !summary["known_errors"].is_array())
-        return rows;
-    for (const JsonObject& one : summary["known_errors"]) {
-        const auto measure =
-            std::ranges::find(headline_measures(), text_at(one, "measure"), &HeadlineMeasure::key);
-        if (measure == headline_measures().end())
-            continue;
-        const auto words = [&](const std::string& name) {
-            const auto value = number_at(one, name.c_str());
-            if (!value)
-                return std::string(unknown);
-            return fmt::format("{} ({})", error_text(measure->key, *value),
-                               text_at(one, (name + "_against").c_str()));
-        };
-        rows.push_back({measure->key, std::string(measure->name), words("resolution"),
-                        words("speed"), words("spread")});
-    }
-    return rows;
+    return fmt::format("{:.2g}{}", value, key.ends_with("_diameters") ? " discs" : "");
 }
 
 std::string error_sentence(const nlohmann::ordered_json& summary) {
+    const auto list = summary.find(std::string(known_errors_quantity.name));
+    if (list == summary.end() || !list->is_array() || list->empty())
+        return "";
     std::vector<std::string> parts, none;
-    for (const ErrorWords& row : error_words(summary)) {
+    for (const JsonObject& one : *list) {
+        const std::string key = text_at(one, "measure"), label(label_of(key));
         std::vector<std::string> known;
         for (const auto& [name, words] :
-             {std::pair("resolution", &row.resolution), std::pair("speed", &row.speed),
-              std::pair("seeds ±", &row.spread)})
-            if (*words != unknown)
-                known.push_back(fmt::format("{} {}", name, words->substr(0, words->find(" ("))));
+             {std::pair("resolution", "resolution"), std::pair("speed", "speed"),
+              std::pair("spread", "seeds ±")})
+            if (const auto value = number_at(one, name))
+                known.push_back(fmt::format("{} {}", words, error_text(key, *value)));
         if (known.empty())
-            none.push_back(row.name);
+            none.push_back(label);
         else
-            parts.push_back(fmt::format("{}: {}{}", row.name, fmt::join(known, ", "),
+            parts.push_back(fmt::format("{}: {}{}", label, fmt::join(known, ", "),
                                         known.size() < 3 ? ", else unknown" : ""));
     }
-    if (parts.empty() && none.empty())
-        return "";
     if (parts.empty())
         return "Errors: unknown; no recorded runs are like this one.";
     if (!none.empty())

@@ -63,15 +63,7 @@ nlohmann::ordered_json known_errors_json(const Scene& scene, double extension);
 extern const Quantity known_errors_quantity;
 std::span<const Quantity> error_fields();
 
-/// A row for people: name of the measure, and its errors in words.
-struct ErrorWords {
-    std::string key, name, resolution, speed, spread;
-};
-
-/// Rows of what a summary says of its errors; none where it is older than that.
-std::vector<ErrorWords> error_words(const nlohmann::ordered_json& summary);
-
-/// The rows in one sentence for a caption; empty without rows.
+/// What a summary says of its errors, in one sentence; empty where it is older than that.
 std::string error_sentence(const nlohmann::ordered_json& summary);
 
 /// A number of a measure with its unit and a sensible number of digits: "0.12 km", "0.03°".

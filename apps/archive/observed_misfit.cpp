@@ -97,20 +97,24 @@ std::span<const ObservedField> observed_fields() {
     using Json = nlohmann::ordered_json;
     using H = const ObservedHorizon&;
     static constexpr ObservedField fields[] = {
-        {"name", "", "name of the picked horizon", [](H h) -> Json { return h.name; }},
-        {"outside", "", "reason why the horizon is compared with nothing, if it is not",
+        {"name", "", "horizon", "name of the picked horizon", [](H h) -> Json { return h.name; }},
+        {"outside", "", "not compared, since",
+         "reason why the horizon is compared with nothing, if it is not",
          [](H h) { return h.objection.empty() ? Json() : Json(h.objection); }},
-        {"stratum", "1", "stratum whose top is compared with the horizon",
+        {"stratum", "1", "stratum", "stratum whose top is compared with the horizon",
          [](H h) { return h.misfit ? Json(*h.stratum) : Json(); }},
-        {"mean_m", "m", "mean distance of the horizon's points from the top of the stratum",
+        {"mean_m", "m", "mean distance",
+         "mean distance of the horizon's points from the top of the stratum",
          [](H h) { return h.misfit ? Json(h.misfit->mean) : Json(); }},
-        {"largest_m", "m", "largest distance of a point from the top of the stratum",
+        {"largest_m", "m", "largest distance",
+         "largest distance of a point from the top of the stratum",
          [](H h) { return h.misfit ? Json(h.misfit->largest) : Json(); }},
-        {"largest_at_x_m", "m", "x of the largest distance",
+        {"largest_at_x_m", "m", "largest distance at x", "x of the largest distance",
          [](H h) { return h.misfit ? Json(h.misfit->worst.x) : Json(); }},
-        {"points", "1", "number of picked points",
+        {"points", "1", "points", "number of picked points",
          [](H h) { return h.misfit ? Json(h.points) : Json(); }},
-        {"points_compared", "1", "number of picked points that lie beside the top",
+        {"points_compared", "1", "points compared",
+         "number of picked points that lie beside the top",
          [](H h) { return h.misfit ? Json(h.misfit->compared) : Json(); }},
     };
     return fields;

@@ -27,15 +27,16 @@ struct ObservedHorizon {
 
 /// Value of one in summary.json under a name; null: none.
 struct ObservedField {
-    std::string_view name, unit, doc;
+    std::string_view name, unit, label, doc;
     nlohmann::ordered_json (*value)(const ObservedHorizon& horizon);
 };
 std::span<const ObservedField> observed_fields();
 
 inline constexpr Quantity observed_horizons{
-    "observed", "", "picked horizons beside the model's tops; with `[observed]` only"};
+    "observed", "", "picked horizons",
+    "picked horizons beside the model's tops; with `[observed]` only"};
 inline constexpr Quantity detachment_misfit{
-    "detachment_misfit_m", "m",
+    "detachment_misfit_m", "m", "misfit of the fitted detachment",
     "largest distance of a picked fault's points from the arcs and lines fitted to them; only with "
     "`detachment.csv` or `svg`"};
 

@@ -29,6 +29,7 @@ struct QualityCheck {
     std::string bound; ///< for people: "0.95 to 1.03"
     Verdict verdict = Verdict::note;
     std::string words = {}; ///< a sentence on the meaning, and on the cure where it is doubtful
+    std::string brief = {}; ///< among the results of a run: "mass error 2e-15"; none: left out
 };
 
 /// Facts of a run that its summary does not hold.
@@ -43,5 +44,11 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
 
 /// "good", "doubtful" or "note".
 const char* name_of(Verdict verdict);
+
+/// Of all of a run's questions: doubtful if one is; a note where nothing is judged.
+Verdict verdict_of(const std::vector<QualityCheck>& checks);
+
+/// "good: quasi-static, mass error 2e-15", and below it why it is doubtful, if it is.
+std::vector<std::string> verdict_lines(const std::vector<QualityCheck>& checks);
 
 } // namespace listric::archive

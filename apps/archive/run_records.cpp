@@ -86,20 +86,18 @@ void require_header(const std::vector<std::string>& header) {
 std::span<const HeadlineMeasure> headline_measures() {
     using M = measures::Measures;
     using measures::name_of;
-    static const HeadlineMeasure all[] = {
-        {name_of<&M::rollover_tilt>(), "tilt", "tilt of the head block"},
-        {name_of<&M::cutoff, &dem::Point::x>(), "cutoff", "cutoff, x"},
-        {name_of<&M::cutoff, &dem::Point::y>(), "cutoff", "cutoff, depth"},
-        {name_of<&M::basin_area>(), "area", "basin area"},
-        {name_of<&M::area_balance>(), "balance", "basin area over extension × thickness"},
-        {name_of<&M::halfgraben_area_share>(), "halfgraben", "halfgraben's share of the basin"},
-        {name_of<&M::strain_top10>(), "top10", "strain in the most strained tenth"},
-        {name_of<&M::strain_top10_cumulative>(), "cumulative",
-         "strain since the start in the most strained tenth"},
-        {name_of<&M::basement_unbonded_fraction>(), "unbonded", "unbonded share of the basement"},
-        {effects::weak_fraction, "weak", "weakened share"},
-        {fault_width(), "width", "width of faults in discs"},
-        {std::string(measures::antithetic_foot), "antithetic", "foot of the antithetic fault, x"}};
+    static const HeadlineMeasure all[] = {{name_of<&M::rollover_tilt>(), "tilt"},
+                                          {name_of<&M::cutoff, &dem::Point::x>(), "cutoff"},
+                                          {name_of<&M::cutoff, &dem::Point::y>(), "cutoff"},
+                                          {name_of<&M::basin_area>(), "area"},
+                                          {name_of<&M::area_balance>(), "balance"},
+                                          {name_of<&M::halfgraben_area_share>(), "halfgraben"},
+                                          {name_of<&M::strain_top10>(), "top10"},
+                                          {name_of<&M::strain_top10_cumulative>(), "cumulative"},
+                                          {name_of<&M::basement_unbonded_fraction>(), "unbonded"},
+                                          {effects::weak_fraction, "weak"},
+                                          {fault_width(), "width"},
+                                          {std::string(measures::antithetic_foot), "antithetic"}};
     return all;
 }
 

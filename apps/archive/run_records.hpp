@@ -11,9 +11,8 @@ namespace listric::archive {
 
 /// A measure whose error is told wherever a run's results are.
 struct HeadlineMeasure {
-    std::string key;       ///< in summary.json
+    std::string key;       ///< in summary.json; its label is for people
     std::string_view word; ///< in `--error`: cutoff stands for both of its numbers
-    std::string_view name; ///< for people
 };
 
 /// The twelve of them, in the order in which they are shown.

@@ -55,7 +55,7 @@ struct SummaryContent {
 
 /// Quantities of every run. One without a function is taken elsewhere.
 struct HeadField {
-    std::string_view name, unit, doc;
+    std::string_view name, unit, label, doc;
     nlohmann::ordered_json (*value)(const SummaryContent& content) = nullptr;
 };
 std::span<const HeadField> head_fields();

@@ -1,5 +1,6 @@
 #include "apps/commands/asked_accuracy.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
@@ -185,7 +186,7 @@ std::string error_table(const AccuracyChoice& choice) {
         const KnownError& error = error_of(choice, measure.key);
         const auto promised = promised_error(error, choice.seeds);
         text +=
-            fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", measure.name,
+            fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", archive::label_of(measure.key),
                         promised ? archive::error_text(measure.key, *promised) : "unknown",
                         part_text(measure.key, error.resolution),
                         part_text(measure.key, error.speed), part_text(measure.key, error.spread));
@@ -215,10 +216,10 @@ std::string missed(const AccuracyChoice& choice, std::span<const ErrorTarget> ta
               std::pair(&error.spread, "spread")})
             if (!*part)
                 unknown.emplace_back(name);
-        parts.push_back(
-            promised
-                ? fmt::format("{} below {}", target.key, archive::error_text(target.key, *promised))
-                : fmt::format("{} unknown ({})", target.key, fmt::join(unknown, ", ")));
+        parts.push_back(promised ? fmt::format("{} below {}", archive::label_of(target.key),
+                                               archive::error_text(target.key, *promised))
+                                 : fmt::format("{} unknown ({})", archive::label_of(target.key),
+                                               fmt::join(unknown, ", ")));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -247,6 +248,41 @@ RecordedWays recorded_ways(const SceneRequest& request, int threads) {
         choices.objection = fmt::format("no run of {} to {:g} km of extension is recorded",
                                         scene.name, scene.extension.distance / 1e3);
     return choices;
+}
+
+/// Labels of the measures whose promised errors another choice lowers, and of those that it raises.
+struct Exchange {
+    std::vector<std::string_view> lower, higher;
+};
+
+/// @param targets  measures that count; none: all
+Exchange exchange(const AccuracyChoice& now, const AccuracyChoice& other,
+                  std::span<const ErrorTarget> targets) {
+    Exchange found;
+    for (const KnownError& error : now.errors) {
+        const auto before = promised_error(error, now.seeds);
+        const auto after = promised_error(error_of(other, error.key), other.seeds);
+        if (!before || !after ||
+            (!targets.empty() && std::ranges::count(targets, error.key, &ErrorTarget::key) == 0))
+            continue;
+        if (*after < *before)
+            found.lower.push_back(archive::label_of(error.key));
+        else if (*after > *before)
+            found.higher.push_back(archive::label_of(error.key));
+    }
+    return found;
+}
+
+/// What more time brings: another choice, if it lowers more errors than it raises.
+std::string bought(const AccuracyChoice& now, const std::optional<AccuracyChoice>& more,
+                   std::span<const ErrorTarget> targets) {
+    const Exchange errors = more ? exchange(now, *more, targets) : Exchange();
+    if (errors.lower.size() <= errors.higher.size())
+        return " buys nothing that is recorded\n";
+    const std::string but = errors.higher.empty()
+                                ? ""
+                                : fmt::format("  no smaller: {}\n", fmt::join(errors.higher, "; "));
+    return fmt::format(" buys\n  {}\n{}{}", name_of(*more), error_table(*more), but);
 }
 
 std::string unsupported(const RecordedWays& choices, std::span<const ErrorTarget> targets) {
@@ -458,14 +494,10 @@ std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& reques
         call_of(*answer.choice, request), error_table(*answer.choice));
     const double twice = 2.0 * (asked.error.empty() ? parse_duration("--within", asked.within)
                                                     : answer.choice->seconds);
-    const auto more = best_choice(choices.all, twice);
-    text += fmt::format("\ntwice the time ({})", duration(twice));
-    if (more && (more->level != answer.choice->level || more->speed != answer.choice->speed ||
-                 more->seeds != answer.choice->seeds))
-        text += fmt::format(" buys\n  {}\n{}", name_of(*more), error_table(*more));
-    else
-        text += " buys nothing that is recorded\n";
-    return text;
+    const auto targets =
+        asked.error.empty() ? std::vector<ErrorTarget>() : parse_error_targets(asked.error);
+    return text + fmt::format("\ntwice the time ({}){}", duration(twice),
+                              bought(*answer.choice, best_choice(choices.all, twice), targets));
 }
 
 std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int threads) {

@@ -1,8 +1,12 @@
 #include "apps/archive/headline.hpp"
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/quality.hpp"
 #include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
@@ -108,6 +112,25 @@ std::string picture_of(const fs::path& run, const fs::path& page) {
                                         link_to(newest, page));
 }
 
+/// Whether the run is good by its own numbers, in words; empty: not known.
+std::string quality_html(const Card& card) {
+    try {
+        const Scene scene =
+            load_scene({.scene = (card.run / "scene.toml").string()}, program_effects());
+        const auto checks =
+            archive::quality_checks(card.summary, {.base_moves = make_parts(scene).base_moves});
+        std::vector<std::string> why;
+        for (const archive::QualityCheck& check : checks)
+            if (check.verdict == archive::Verdict::doubtful)
+                why.push_back(check.brief);
+        const char* const verdict = archive::name_of(archive::verdict_of(checks));
+        return fmt::format("<p class={0}><b>{0}</b>{1}{2}</p>", verdict, why.empty() ? "" : ": ",
+                           html(fmt::format("{}", fmt::join(why, ", "))));
+    } catch (const std::exception&) { // a card shows what there is
+        return "";
+    }
+}
+
 std::string card_html(const Card& card, const fs::path& page) {
     const fs::path report = card.run / "report.html";
     std::string rows;
@@ -122,14 +145,14 @@ std::string card_html(const Card& card, const fs::path& page) {
         doubts += "<p>the report is older than the run: listric view makes it again";
     const std::string name = html(card.run.lexically_normal().string());
     return fmt::format(
-        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p><table>{}</table>{}"
+        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p>{}<table>{}</table>{}"
         "</article>\n",
         picture_of(card.run, page),
         fs::exists(report) ? fmt::format("<a href=\"{}\">{}</a>", link_to(report, page), name)
                            : name,
         html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
         html(whole_number_at(card.summary, "seed").value_or("unknown")), fmt::localtime(card.when),
-        rows, doubts);
+        quality_html(card), rows, doubts);
 }
 
 /// Writes a page of cards, whose pictures and links are files of the runs. Returns the file.
@@ -158,14 +181,18 @@ fs::path write_cards(const fs::path& folder) {
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Runs in {0}</title>
 <style>
-:root {{ color-scheme: light dark; --edge: #ccc; --page: #fff; --ink: #222; --link: #05c }}
-@media (prefers-color-scheme: dark) {{ :root {{ --edge: #444; --page: #181818; --ink: #ddd; --link: #8bf }} }}
+:root {{ color-scheme: light dark; --edge: #ccc; --page: #fff; --ink: #222; --link: #05c; --good: #1d6b35; --bad: #9c1c1c }}
+@media (prefers-color-scheme: dark) {{ :root {{ --edge: #444; --page: #181818; --ink: #ddd; --link: #8bf;
+  --good: #7fd097; --bad: #ff9c8f }} }}
 body {{ font: 15px/1.4 sans-serif; background: var(--page); color: var(--ink); margin: 1rem }}
 main {{ display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 22rem), 1fr)) }}
 article {{ border: 1px solid var(--edge); border-radius: 6px; padding: .8rem; overflow: hidden }}
 img {{ width: 100%; background: #fff; border-radius: 3px }}
 h2 {{ font-size: 1.05rem; margin: .4rem 0 0; overflow-wrap: anywhere }}
 p {{ margin: .1rem 0 .4rem }}
+.good b {{ color: var(--good) }}
+.doubtful {{ color: var(--bad) }}
+.note {{ display: none }}
 a {{ color: var(--link) }}
 table {{ width: 100%; border-collapse: collapse; font-size: .9em }}
 td {{ border-top: 1px solid var(--edge); padding: .1rem 0 }}

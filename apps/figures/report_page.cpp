@@ -4,7 +4,6 @@
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/headline.hpp"
 #include "apps/archive/json_file.hpp"
-#include "apps/archive/known_errors.hpp"
 #include "apps/archive/quality.hpp"
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
@@ -73,14 +72,6 @@ json quality_of(const ReportPage::Run& run) {
     return list;
 }
 
-/// Errors of the headline measures by recorded runs, in words; none before the run has ended.
-json errors_of(const ReportPage::Run& run) {
-    json list = json::array();
-    for (const archive::ErrorWords& row : archive::error_words(parse_json(run.summary)))
-        list.push_back({row.key, row.name, row.resolution, row.speed, row.spread});
-    return list;
-}
-
 /// Parameters in which two runs differ, as `listric diff` has them.
 json differences_of(const Scene& first, const Scene& second, EffectList effects) {
     json list = json::array();
@@ -107,8 +98,7 @@ json head_of(const ReportPage::Run& run) {
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},
               {"summary", object_or_null(run.summary)},
-              {"quality", quality_of(run)},
-              {"errors", errors_of(run)}};
+              {"quality", quality_of(run)}};
     if (has_effect(scene, "layer"))
         for (const LayerFacts& layer : make_parts(scene).layers)
             head["rock_layers"].push_back(layer.name);
@@ -152,10 +142,10 @@ std::string data_of(const ReportPage& page) {
     for (const archive::DictionaryEntry& entry : archive::dictionary(effects)) {
         const Quantity& quantity = entry.quantity;
         head["definitions"].emplace(quantity.name, quantity.doc);
-        head["measures"].emplace(quantity.name, json{entry.table, quantity.unit, quantity.usual});
+        head["measures"].emplace(quantity.name, json{entry.table, quantity.unit, quantity.label});
     }
     for (const archive::Headline& one : archive::headline_of({}))
-        head["headline"].push_back({one.key, one.name});
+        head["headline"].push_back(one.key);
     if (page.runs.size() == 2)
         head["differences"] = differences_of(page.runs[0].scene, page.runs[1].scene, effects);
     for (const archive::FaultField* field : archive::exported_fault_fields())
@@ -197,7 +187,7 @@ std::string report_html(const ReportPage& page) {
     std::string scripts;
     for (const char* name :
          {"data.js", "colours.js", "painter.js", "section.js", "charts.js", "strata.js",
-          "tables.js", "files.js", "words.js", "address.js", "page.js"})
+           "gestures.js", "tables.js", "files.js", "words.js", "address.js", "page.js"})
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},

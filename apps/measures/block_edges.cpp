@@ -173,12 +173,12 @@ std::optional<double> turn_behind(const Edge& edge, BlockSide side, const Baseme
 }
 
 constexpr Measure<Polyline> of_edge[] = {
-    {"_dip_deg", "deg",
+    {"_dip_deg", "deg", "dip",
      "dip of the best straight line through a block's edge. Antithetic: outer block, above the "
      "lowest seventh of the flat's depth. Synthetic: head block, above half of it, where zones "
      "branch",
      [](const Polyline& edge) { return std::optional(dip_of(edge)); }},
-    {"_bow", "1",
+    {"_bow", "1", "bow",
      "greatest distance of the best parabola through a block's edge, in the depths of the edge's "
      "dip, from its chord, over the chord, positive convex upward",
      [](const Polyline& edge) {
@@ -189,33 +189,35 @@ constexpr Measure<Polyline> of_edge[] = {
 /// Names of edges behind the attitude, and what they are the edges of.
 struct KindOfEdge {
     const char* name;
+    const char* label;
     const char* doc;
 };
 constexpr KindOfEdge kinds[] = {
-    {"_edge",
+    {"_edge", " block's edge since the start, ",
      "; the block since the start (discs within 3 % of the extension, at most 120 m, of its "
      "core's rigid motion)"},
-    {"_active_edge",
+    {"_active_edge", " block's edge in the last window, ",
      "; the block in the last window alone (discs within 3 % of the window's extension of its "
      "core's rigid motion), where the fault is active"}};
 
 constexpr Quantity foot{
-    "antithetic_edge_foot_m", "m",
+    "antithetic_edge_foot_m", "m", "foot of the outer block's edge beyond the sole-out",
     "place where the antithetic fault nucleated, beyond the point where the detachment soles out: "
     "the parabola through the outer block's edge since the start meets the flat there; less the "
     "extension"};
-constexpr Quantity place{"antithetic_edge_x_m", "m",
+constexpr Quantity place{"antithetic_edge_x_m", "m", "outer block's edge, x",
                          "x of the outer block's edge since the start at half the flat's depth"};
 constexpr Quantity shift{
-    "antithetic_edge_shift", "1",
+    "antithetic_edge_shift", "1", "shift of the outer block's edge over extension",
     "change of `antithetic_edge_x_m` over that of extension, since half of the extension: 1 for a "
     "fault that moves with the wall"};
 constexpr Quantity outer_turn{
-    "antithetic_edge_turn_deg", "deg",
+    "antithetic_edge_turn_deg", "deg", "turn behind the outer block's edge",
     "rotation since the start, toward the detachment, of the outer block's discs within 3 km "
     "behind its edge in the last window"};
 constexpr Quantity head_turn{
     "synthetic_edge_turn_over_head_block", "1",
+    "turn behind the head block's edge over the block's",
     "rotation since the start of the head block's discs within 3 km behind its edge in the last "
     "window, over `rollover_tilt_deg`: 0 translated, 1 rotated with the block"};
 
@@ -367,18 +369,23 @@ NamedNumbers measure_block_edges(const RunSoFar& run, std::optional<double> roll
 }
 
 std::vector<Quantity> block_edge_quantities() {
-    static const std::vector<std::pair<std::string, std::string>> texts = [] {
-        std::vector<std::pair<std::string, std::string>> composed;
+    struct Texts {
+        std::string name, label, doc;
+    };
+    static const std::vector<Texts> texts = [] {
+        std::vector<Texts> composed;
         for (const char* attitude : {"antithetic", "synthetic"})
             for (const KindOfEdge& kind : kinds)
                 for (const Measure<Polyline>& m : of_edge)
-                    composed.emplace_back(edge_name(attitude, kind, m),
-                                          std::string(m.doc).append(kind.doc));
+                    composed.push_back({edge_name(attitude, kind, m),
+                                        std::string(attitude).append(kind.label).append(m.label),
+                                        std::string(m.doc).append(kind.doc)});
         return composed;
     }();
     std::vector<Quantity> all{foot, place, shift, outer_turn, head_turn};
     for (std::size_t k = 0; k < texts.size(); ++k)
-        all.push_back({texts[k].first, of_edge[k % std::size(of_edge)].unit, texts[k].second});
+        all.push_back(
+            {texts[k].name, of_edge[k % std::size(of_edge)].unit, texts[k].label, texts[k].doc});
     return all;
 }
 

@@ -11,128 +11,129 @@ namespace {
 using M = Measures;
 
 constexpr Measure<M> of_structure[] = {
-    {"basin_area_m2", "m2",
+    {"basin_area_m2", "m2", "basin area",
      "area of the basin: between the pre-rift top at the start and now (a packing's top is some "
      "tens of metres from the original surface)",
      taken<&M::basin_area>},
-    {"area_balance", "1",
+    {"area_balance", "1", "basin area over extension × thickness",
      "basin area over extension × thickness: 1 less `rock_dilation_fraction`; ends where rock is "
      "eroded",
      taken<&M::area_balance>, OverTime::last, "0.95 to 1.03 from 5 km of extension on"},
-    {"cutoff_x_m", "m",
+    {"cutoff_x_m", "m", "cutoff, x",
      "x of the cutoff, where the pre-rift top meets the detachment: the shallowest pre-rift disc "
      "on it",
      taken<&M::cutoff, &Point::x>},
-    {"cutoff_z_m", "m", "depth of the cutoff", taken<&M::cutoff, &Point::y>},
-    {"rollover_tilt_deg", "deg",
+    {"cutoff_z_m", "m", "cutoff, depth", "depth of the cutoff", taken<&M::cutoff, &Point::y>},
+    {"rollover_tilt_deg", "deg", "tilt of the head block",
      "rotation of the least-squares rigid motion of the discs that started within 5 km of the "
      "detachment, in the upper half of the piece that turns them (down to where it first dips "
      "least) and where that dips by a third of its dip at the breakaway or more, and are still on "
      "it",
      taken<&M::rollover_tilt>},
-    {"breakaway_rotation_deg", "deg",
+    {"breakaway_rotation_deg", "deg", "rotation at the breakaway",
      "ramp-flat-ramp only: rotation of the discs that started within 1.5 km of the breakaway, as "
      "one rigid body",
      taken<&M::breakaway_rotation>},
-    {"toe_rotation_deg", "deg",
+    {"toe_rotation_deg", "deg", "rotation of the upper block's toe",
      "ramp-flat-ramp only: rotation, as one rigid body, of the upper block's toe, the discs that "
      "started within 1.5 km of the last 15 degrees of the upper ramp; it turns back once over the "
      "kink",
      taken<&M::toe_rotation>},
-    {"lower_block_rotation_deg", "deg",
+    {"lower_block_rotation_deg", "deg", "rotation of the lower block",
      "ramp-flat-ramp only: mean rotation of patches of 1.5 km of the discs that started below the "
      "flat's level, on the lower ramp and within half its height",
      taken<&M::lower_block_rotation>},
-    {"intervening_high_x_m", "m",
+    {"intervening_high_x_m", "m", "intervening high, x",
      "x of the intervening high: the basin (smoothed over 1 km) is shallowest there between the "
      "depocentre nearest the breakaway and the most prominent one beyond",
      taken<&M::intervening_high, &Point::x>},
-    {"intervening_high_z_m", "m", "depth of the basin at the intervening high",
-     taken<&M::intervening_high, &Point::y>},
-    {"halfgraben_area_share", "1",
+    {"intervening_high_z_m", "m", "intervening high, depth",
+     "depth of the basin at the intervening high", taken<&M::intervening_high, &Point::y>},
+    {"halfgraben_area_share", "1", "halfgraben's share of the basin",
      "share of the basin's area on the breakaway's side of the intervening high; the rest is the "
      "collapse graben",
      taken<&M::halfgraben_area_share>},
 };
 
 constexpr Measure<M> of_kinematics[] = {
-    {"dilation_area_m2", "m2",
+    {"dilation_area_m2", "m2", "area missing in the balance",
      "extension × thickness less basin area: the area that is missing in the balance of areas",
      taken<&M::dilation_area>},
-    {"depth_to_detachment_m", "m",
+    {"depth_to_detachment_m", "m", "depth to the flat by the balance of areas",
      "basin area over extension: where an area balance would look for the flat",
      taken<&M::depth_to_detachment>},
-    {"inclined_shear_angle_deg", "deg",
+    {"inclined_shear_angle_deg", "deg", "inclined shear: best angle",
      "hanging wall sheared on parallel planes, `z(u) = F(u) - F(u - e)` with `F` the detachment's "
      "depth where the plane `u = x + z tan(angle)` meets it: best-fitting angle from the vertical, "
      "positive antithetic",
      taken<&M::inclined_shear_angle>},
-    {"inclined_shear_misfit_m", "m",
+    {"inclined_shear_misfit_m", "m", "inclined shear: misfit",
      "root mean square of the height differences at the best-fitting angle of inclined shear",
      taken<&M::inclined_shear_misfit>},
-    {"normals_misfit_m", "m",
+    {"normals_misfit_m", "m", "normals that stay normal: misfit",
      "root mean square of the height differences for lines that stay normal to the detachment, up "
      "to half way between the cutoff and the end of the detachment's first piece: the head block",
      taken<&M::normals_misfit>},
-    {"predicted_tilt_deg", "deg",
+    {"predicted_tilt_deg", "deg", "normals that stay normal: tilt",
      "normals stay normal: the detachment's dip at the breakaway less that one extension further "
      "down (extension / radius on an arc); to compare with `rollover_tilt_deg`",
      taken<&M::predicted_tilt>},
-    {"predicted_cutoff_x_m", "m",
+    {"predicted_cutoff_x_m", "m", "predicted cutoff, x",
      "x of the point of the detachment one extension down from the breakaway",
      taken<&M::predicted_cutoff, &Point::x>},
-    {"predicted_cutoff_z_m", "m",
+    {"predicted_cutoff_z_m", "m", "predicted cutoff, depth",
      "depth of the point of the detachment one extension down from the breakaway",
      taken<&M::predicted_cutoff, &Point::y>},
-    {"predicted_halfgraben_area_share", "1",
+    {"predicted_halfgraben_area_share", "1", "normals that stay normal: halfgraben's share",
      "normals stay normal: area left of the rollover's crest over extension × depth; (1 + cos dip) "
      "/ 2 for small slip on an arc",
      taken<&M::predicted_halfgraben_area_share>},
 };
 
 constexpr Measure<M> of_strain[] = {
-    {"strain_top10", "1", "share of the strain in the most strained tenth of the area",
-     taken<&M::strain_top10>},
-    {"strain_top10_cumulative", "1",
+    {"strain_top10", "1", "strain in the most strained tenth",
+     "share of the strain in the most strained tenth of the area", taken<&M::strain_top10>},
+    {"strain_top10_cumulative", "1", "strain since the start in the most strained tenth",
      "share of the strain since the start in the most strained tenth of the area",
      taken<&M::strain_top10_cumulative>},
-    {"strain_gini", "1", "Gini coefficient of the strain", taken<&M::strain_gini>},
+    {"strain_gini", "1", "unevenness of strain (Gini)", "Gini coefficient of the strain",
+     taken<&M::strain_gini>},
 };
 
 constexpr Measure<M> of_material[] = {
-    {"basement_unbonded_fraction", "1", "share of touching pre-rift pairs without bond",
-     taken<&M::basement_unbonded_fraction>},
-    {"broken_width_diameters", "diameters",
+    {"basement_unbonded_fraction", "1", "unbonded share of the basement",
+     "share of touching pre-rift pairs without bond", taken<&M::basement_unbonded_fraction>},
+    {"broken_width_diameters", "diameters", "distance of broken from sound basement",
      "mean distance of broken from sound basement, a quarter of the width of a strip: 2 to 3 where "
      "faults form, 6 to 9 where rock is broken areally. Broken: of the touching pre-rift pairs "
      "within 1.6 diameters of a disc 35 % or more have no bond",
      taken<&M::broken, &BrokenRock::width>},
-    {"broken_areal_share", "1",
+    {"broken_areal_share", "1", "share of the basement broken areally",
      "share of the basement, by area, that is broken and more than 4 diameters from sound rock",
      taken<&M::broken, &BrokenRock::areal_share>},
-    {"old_sediment_bonded_fraction", "1",
+    {"old_sediment_bonded_fraction", "1", "bonded share of old sediment",
      "bonded share of the touching pairs of sediment discs deeper than 1.5 km and older than "
      "2 km of travel (200,000 a at 1 cm/a)",
      taken<&M::old_sediment_bonded_fraction>},
 };
 
 constexpr Measure<M> of_quality[] = {
-    {"mass_error_fraction", "1",
+    {"mass_error_fraction", "1", "error of mass",
      "(mass − (initial + deposited − removed)) / initial, without sign; zero up to round-off",
      taken<&M::mass_error_fraction>, OverTime::last, "below 1e-12"},
-    {"unbalanced_ratio_mean", "1",
+    {"unbalanced_ratio_mean", "1", "unbalanced force, mean",
      "unbalanced force on a disc over the mean contact force, sampled every 25 m of travel: mean "
      "over "
      "discs and samples",
-     taken<&M::unbalanced_ratio_mean>, OverTime::last, "below 0.004 at standard"},
-    {"unbalanced_ratio_max", "1",
+     taken<&M::unbalanced_ratio_mean>, OverTime::last, "at most 0.01"},
+    {"unbalanced_ratio_max", "1", "unbalanced force, largest",
      "unbalanced force on a disc over the mean contact force, sampled every 25 m of travel: "
      "largest",
      taken<&M::unbalanced_ratio_max>},
-    {"inertial_number", "1",
+    {"inertial_number", "1", "inertial number",
      "strain rate × diameter × sqrt(density / pressure), mean over the tenth of the pre-rift area "
      "that holds most of it, last window",
-     taken<&M::inertial_number>, OverTime::last, "below 0.002"},
+     taken<&M::inertial_number>, OverTime::last, "at most 0.002"},
 };
 
 } // namespace
@@ -156,37 +157,43 @@ std::string_view name_of(std::optional<double> (*value)(const Measures&)) {
 }
 
 constinit const Quantity quasi_static{
-    "quasi_static", "",
+    "quasi_static",
+    "",
+    "quasi-static",
     "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice the "
     "values of `lis1` at draft; if not, the run warns, and `extension.speed_m_per_s` should be "
     "smaller. Absent without gravity, and in runs shorter than a sampling interval",
-    OverTime::last, "true"};
+    OverTime::last,
+    "true"};
 
 constinit const Quantity depocentres{
-    "depocentres", "",
+    "depocentres", "", "depocentres",
     "maxima of the sediment thickness (smoothed over 1 km) with a prominence of 250 m or more, "
     "thickest first; one that is thinner than a mean disc diameter may be a few discs in a dent"};
 
 std::span<const Measure<Depocentre>> depocentre_measures() {
     using D = Depocentre;
     static constexpr Measure<D> all[] = {
-        {"x_m", "m", "x of the depocentre", taken<&D::x>},
-        {"thickness_m", "m", "thickness of the sediment at the depocentre", taken<&D::thickness>},
-        {"prominence_m", "m", "thickness above the saddle to a thicker depocentre",
+        {"x_m", "m", "x", "x of the depocentre", taken<&D::x>},
+        {"thickness_m", "m", "thickness", "thickness of the sediment at the depocentre",
+         taken<&D::thickness>},
+        {"prominence_m", "m", "prominence", "thickness above the saddle to a thicker depocentre",
          taken<&D::prominence>}};
     return all;
 }
 
 constinit const Quantity old_sediment_bonded_profile{
-    "old_sediment_bonded_profile", "",
+    "old_sediment_bonded_profile", "", "bonded share of old sediment, by depth",
     "bonded share of the touching pairs of sediment discs older than 2 km of travel "
     "(200,000 a at 1 cm/a), by depth"};
 
 std::span<const Measure<BondedLayer>> bonded_layer_measures() {
     using B = BondedLayer;
-    static constexpr Measure<B> all[] = {
-        {"depth_m", "m", "depth below the level: middle of a layer 1 km high", taken<&B::depth>},
-        {"bonded_fraction", "1", "bonded share of the layer's pairs", taken<&B::share>}};
+    static constexpr Measure<B> all[] = {{"depth_m", "m", "depth",
+                                          "depth below the level: middle of a layer 1 km high",
+                                          taken<&B::depth>},
+                                         {"bonded_fraction", "1", "bonded share",
+                                          "bonded share of the layer's pairs", taken<&B::share>}};
     return all;
 }
 

@@ -10,12 +10,13 @@ using namespace dem;
 namespace {
 
 constexpr Quantity dilation{
-    "rock_dilation_m2", "m2",
+    "rock_dilation_m2", "m2", "dilation of rock",
     "growth of the pre-rift discs' power cells (the part of the plane that is nearer to a disc "
     "than to any other) since the start, of those that are closed then and now, scaled to all: "
     "dilation of the rock, measured without its surface. Shortening lifts its area less by what "
     "this falls by"};
 constexpr Quantity dilation_fraction{"rock_dilation_fraction", "1",
+                                     "dilation of rock over extension × thickness",
                                      "`rock_dilation_m2` over extension × thickness, to compare "
                                      "with 1 - `area_balance`; none once a "
                                      "stage has shortened"};

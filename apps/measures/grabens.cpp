@@ -9,20 +9,21 @@ namespace listric::measures {
 
 namespace {
 
-constexpr Quantity basin_count{"basins", "1",
+constexpr Quantity basin_count{"basins", "1", "basins",
                                "maxima of the depth of the pre-rift top (smoothed over 1 km) with "
                                "a prominence of 250 m or more"};
-constexpr Quantity graben_count{"collapse_grabens", "1",
+constexpr Quantity graben_count{"collapse_grabens", "1", "collapse grabens",
                                 "number of basins except the one nearest the breakaway"};
 constexpr Quantity graben_prominence{"collapse_graben_prominence_m", "m",
+                                     "prominence of the collapse graben",
                                      "largest prominence of a collapse graben"};
-constexpr Quantity first_graben{"first_graben_at_m", "m",
+constexpr Quantity first_graben{"first_graben_at_m", "m", "first collapse graben at",
                                 "extension of the first snapshot with a collapse graben"};
 constexpr Quantity second_graben{
-    "second_graben_at_m", "m",
+    "second_graben_at_m", "m", "second collapse graben at",
     "extension of the first snapshot with two collapse grabens that are 2 km apart"};
 constexpr Quantity outer_first{
-    "outer_graben_first", "1",
+    "outer_graben_first", "1", "outer graben first",
     "order of the collapse grabens: 1 if the one farther from the breakaway formed first, 0 if the "
     "nearer one did (places less the extension, since grabens move with the right wall)"};
 

@@ -15,11 +15,11 @@ using namespace dem;
 namespace {
 
 constexpr Quantity hinge_start{
-    "hinge_start_x_m", "m",
+    "hinge_start_x_m", "m", "inner edge of the deforming zone, x",
     "position of the inner edge of the deforming zone: tenth percentile, by strain, of the start x "
     "of discs that started 5 to 10 km deep and are strained by 0.05 per 500 m or more, in the last "
     "window"};
-constexpr Quantity hinge_step{"hinge_step_m", "m",
+constexpr Quantity hinge_step{"hinge_step_m", "m", "way of the deforming zone's inner edge",
                               "distance that the inner edge of the deforming zone has moved toward "
                               "the breakaway: median of `hinge_start_x_m` over the windows from a "
                               "tenth to four tenths of the extension, less its present value"};

@@ -13,19 +13,21 @@ using namespace dem;
 namespace {
 
 constexpr Quantity strain_share{
-    "kink_reverse_strain_share", "1",
+    "kink_reverse_strain_share", "1", "reverse strain above the kink",
     "ramp-flat-ramp, rock and old sediment above the flat's level from 3 km before the kink to 6 "
     "km beyond, the windows since half of the extension: share of the shear strain on reverse "
     "planes that dip toward the breakaway by 20 to 80 degrees. A disc has two planes of largest "
     "shear; the one counts whose simple shear turns as its surroundings do"};
 constexpr Quantity fault_share{
-    "kink_reverse_fault_share", "1",
+    "kink_reverse_fault_share", "1", "reverse strain on faults above the kink",
     "part of `kink_reverse_strain_share` on faults: within the measure circle of a reverse segment "
     "that fault detection found in the window. 0 without fault detection"};
 constexpr Quantity synrift_shortening{"kink_synrift_shortening", "1",
+                                      "shortening of sediment above the kink",
                                       "mean horizontal shortening of the sediment above the kink, "
                                       "summed over the windows since half of the extension"};
 constexpr Quantity reverse_trace{"kink_reverse_trace_m", "m",
+                                 "length of reverse faults above the kink",
                                  "length of the traced reverse faults above the kink"};
 
 constexpr double before_kink = 3e3, beyond_kink = 6e3; ///< along x, m

@@ -15,11 +15,11 @@ using namespace dem;
 namespace {
 
 constexpr Quantity bounded_on{
-    "lower_block_bounded_share", "1",
+    "lower_block_bounded_share", "1", "share of the lower block's bounds that shear",
     "share of 72 directions in which, from the lower block's middle, the detachment or a strain of "
     "0.05 in the last window comes within 12 km"};
 constexpr Quantity low_angle_fault{
-    "lower_block_low_angle_fault_m", "m",
+    "lower_block_low_angle_fault_m", "m", "length of low-angle faults in the lower block",
     "length of the normal traces' parts that dip by less than 30 degrees within 3 km of the block"};
 
 Point centre_of(const ConstDiscColumns& d, const std::vector<std::size_t>& block) {

@@ -83,31 +83,35 @@ using F = const MainFault&;
 
 // Names begin with the fault's attitude.
 constexpr Measure<MainFault> of_main_fault[] = {
-    {"_born_at_m", "m", "`born_at_m` of the main fault of that attitude",
+    {"_born_at_m", "m", " fault: born at", "`born_at_m` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.born_at.m; }},
-    {"_dip_at_birth_deg", "deg", "`dip_at_birth_deg` of the main fault of that attitude",
+    {"_dip_at_birth_deg", "deg", " fault: dip at birth",
+     "`dip_at_birth_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.dip_at_birth; }},
-    {"_turn_deg", "deg", "`footwall_turn_deg` of the main fault of that attitude",
+    {"_turn_deg", "deg", " fault: turn since birth",
+     "`footwall_turn_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.footwall_turn; }},
-    {"_throw_m", "m", "`greatest_throw_m` of the main fault of that attitude",
+    {"_throw_m", "m", " fault: throw", "`greatest_throw_m` of the main fault of that attitude",
      [](F f) { return pre_rift_throw_of(f.fault.cutoffs); }},
-    {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
+    {"_rate_mm_per_a", "mm/a", " fault: slip rate",
+     "`rate_mm_per_a` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.rate; }},
-    {"_x_at_half_depth_m", "m",
+    {"_x_at_half_depth_m", "m", " fault: x at half depth",
      "x of the trace at half the depth of the flat; its change over the change of extension is 1 "
      "for a fault that moves with the right wall",
      [](F f) { return x_at(f.fault.trace.points, 0.5 * f.run.detachment.back().end.y); }},
-    {"_bow", "1",
+    {"_bow", "1", " fault: bow",
      "greatest distance of the best parabola from its chord, over the chord, positive convex "
      "upward: of the fault with its scarp (the pre-rift top from the trace's upper end up to 250 m "
      "of depth)",
      [](F f) -> Value { return bow(with_scarp(f.fault.trace.points, f.run.profile)); }},
-    {"_dip_deg", "deg", "`dip_deg` of the part below the pre-rift top",
+    {"_dip_deg", "deg", " fault: dip below the pre-rift top",
+     "`dip_deg` of the part below the pre-rift top",
      [](F f) { return f.crosses_basement() ? Value(dip_of(f.basement)) : std::nullopt; }},
-    {"_bow_in_basement", "1",
+    {"_bow_in_basement", "1", " fault: bow below the pre-rift top",
      "`antithetic_bow` or `synthetic_bow` of the trace's part below the pre-rift top",
      [](F f) { return f.crosses_basement() ? Value(bow(f.basement)) : std::nullopt; }},
-    {"_turn_over_head_block", "1",
+    {"_turn_over_head_block", "1", " fault: turn over the head block's",
      "`footwall_turn_deg` over the rotation of the head block since the fault's birth: 0 "
      "translated, 1 rotated with it",
      [](F f) { return turn_over_head_block(f.run, f.fault, f.rollover_tilt); }},
@@ -123,24 +127,25 @@ NamedNumbers measure_main_fault(const MainFault& fault) {
     return numbers;
 }
 
-constexpr Quantity fault_count{"faults", "1", "number of traces"};
+constexpr Quantity fault_count{"faults", "1", "traced faults", "number of traces"};
 constexpr Quantity foot_beyond_sole{
-    "antithetic_foot_beyond_sole_m", "m",
+    "antithetic_foot_beyond_sole_m", "m", "foot of the antithetic fault beyond the sole-out",
     "`antithetic_foot_x_m` less the x at which the detachment soles out"};
 constexpr Quantity throw_over_throw{"antithetic_over_synthetic_throw", "1",
+                                    "antithetic over synthetic throw",
                                     "`antithetic_throw_m` over `synthetic_throw_m`"};
 constexpr Quantity inner_step{
-    "inner_fault_step_m", "m",
+    "inner_fault_step_m", "m", "step of new faults toward the breakaway",
     "largest step of a new fault toward the breakaway: horizontal distance, at the height of its "
     "middle, between a new normal fault steeper than 45 degrees and the nearest one that is at "
     "least 2 km of extension older. 0 if no new fault lies nearer to the breakaway than all older "
     "ones"};
 constexpr Quantity throw_age{
-    "throw_age_correlation", "1",
+    "throw_age_correlation", "1", "correlation of throw with stratum",
     "rank correlation (Spearman) of `faults.throw_m` with stratum, of the strata younger than the "
     "fault and the surface that it broke first, -1 where each younger stratum has less: median "
     "over the normal faults of 30 degrees or more that have five throws or more"};
-constexpr Quantity throw_age_count{"throw_age_faults", "1",
+constexpr Quantity throw_age_count{"throw_age_faults", "1", "faults with five throws or more",
                                    "number of the faults of `throw_age_correlation`"};
 
 /// Ratio of the two main faults' greatest throws. None unless both are there.
@@ -190,25 +195,26 @@ NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
 std::span<const Measure<FaultReport>> fault_report_measures() {
     using R = FaultReport;
     static constexpr Measure<R> all[] = {
-        {"fault_width_diameters", "diameters", "median width of all traces, weighted by length",
-         taken<&R::width>, OverTime::last, "2.5 to 3.5"},
-        {antithetic_foot, "m",
+        {"fault_width_diameters", "diameters", "width of faults",
+         "median width of all traces, weighted by length", taken<&R::width>, OverTime::last,
+         "2.5 to 3.5"},
+        {antithetic_foot, "m", "foot of the antithetic fault, x",
          "place where the main antithetic fault nucleated: `foot_x_m` of the line whose dip is "
          "`dip_at_birth_deg`, less the extension from `born_at_m` to `traced_since_m`",
          taken<&R::antithetic_foot>},
-        {"main_antithetic_fault", index_unit,
+        {"main_antithetic_fault", index_unit, "number of the main antithetic fault",
          "index in `faults` of the main antithetic fault: normal, steeper than 30 degrees, with "
          "the largest product of slip rate and length; one that reaches the lower half of the "
          "hanging wall goes before one that does not",
          taken<&R::main_antithetic>},
-        {"main_synthetic_fault", index_unit,
+        {"main_synthetic_fault", index_unit, "number of the main synthetic fault",
          "index in `faults` of the main synthetic fault, chosen as `main_antithetic_fault` is",
          taken<&R::main_synthetic>},
-        {"sediment_weak_off_fault_fraction", "1",
+        {"sediment_weak_off_fault_fraction", "1", "sediment weakened beside faults",
          "share of the sediment, by area, that is weakened and further than 5 diameters from every "
          "trace",
          taken<&R::sediment_weak_off_fault_fraction>},
-        {"weak_off_fault_fraction", "1",
+        {"weak_off_fault_fraction", "1", "share of what is weakened that is of no fault",
          "share of the weakened discs, by area, that is of no fault: further than 5 diameters from "
          "every trace, and in no band of touching weakened discs that is 12 diameters long or "
          "longer, as the shortest trace; pictures paint it in a colour of its own",
@@ -218,18 +224,19 @@ std::span<const Measure<FaultReport>> fault_report_measures() {
 }
 
 std::vector<Quantity> main_fault_quantities() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> composed;
+    static const std::vector<std::pair<std::string, std::string>> texts = [] {
+        std::vector<std::pair<std::string, std::string>> composed;
         for (const char* attitude : attitudes)
             for (const Measure<MainFault>& measure : of_main_fault)
-                composed.push_back(std::string(attitude).append(measure.name));
+                composed.emplace_back(std::string(attitude).append(measure.name),
+                                      std::string(attitude).append(measure.label));
         return composed;
     }();
     std::vector<Quantity> all{fault_count, foot_beyond_sole, throw_over_throw,
                               inner_step,  throw_age,        throw_age_count};
-    for (std::size_t k = 0; k < names.size(); ++k) {
+    for (std::size_t k = 0; k < texts.size(); ++k) {
         const Measure<MainFault>& measure = of_main_fault[k % std::size(of_main_fault)];
-        all.push_back({names[k], measure.unit, measure.doc});
+        all.push_back({texts[k].first, measure.unit, texts[k].second, measure.doc});
     }
     return all;
 }

@@ -20,7 +20,7 @@ constexpr dem::Extension lag(3e3);
 constexpr double strained = 0.2; ///< share of the discs that counts as strained
 
 constexpr Quantity persistence{
-    "strain_persistence", "1",
+    "strain_persistence", "1", "persistence of strain",
     "correlation of the basement's strain in one window with that in the window 3 km of extension "
     "later, over the fifth of the discs that is strained most in both together: mean over all such "
     "pairs of windows so far. Zero or less for bands of the day"};

@@ -15,23 +15,24 @@ namespace {
 constexpr double resolved = 3.0; ///< mean diameters between strata that have a value
 
 constexpr Quantity correlation{
-    "relief_youth_correlation", "1",
+    "relief_youth_correlation", "1", "correlation of relief with stratum",
     "rank correlation (Spearman) of the relief of strata across the inner margin of the collapse "
     "graben with their youth, -1 where each younger one has less. Relief: highest top of the "
     "stratum (smoothed over 1 km) between halfgraben and graben less its lowest top in the graben, "
     "known to a disc's diameter. Strata that lie closer than three diameters on the graben's floor "
     "count as one; none for fewer than five"};
-constexpr Quantity count{"relief_strata", "1",
+constexpr Quantity count{"relief_strata", "1", "strata with a relief",
                          "number of the strata of `relief_youth_correlation`"};
 constexpr Quantity antithetic{
-    "antithetic_relief_m", "m",
+    "antithetic_relief_m", "m", "relief at the graben's outer margin",
     "relief of the pre-rift top at the outer margin of the collapse graben, on the antithetic "
     "fault's side: highest top beyond the graben less the lowest in it"};
 constexpr Quantity synthetic{
-    "synthetic_relief_m", "m",
+    "synthetic_relief_m", "m", "relief at the graben's inner margin",
     "relief of the pre-rift top at the inner margin of the collapse graben, on the synthetic "
     "fault's side"};
 constexpr Quantity ratio{"antithetic_over_synthetic_relief", "1",
+                         "relief at the outer over that at the inner margin",
                          "`antithetic_relief_m` over `synthetic_relief_m`"};
 
 /// Columns of the halfgraben's floor, the intervening high and the collapse graben's floor.

@@ -17,33 +17,33 @@ using namespace dem;
 
 namespace {
 
-constexpr Quantity basement_weak{"basement_weak_fraction", "1",
+constexpr Quantity basement_weak{"basement_weak_fraction", "1", "weakened share of pre-rift rock",
                                  "share of the pre-rift rock, by area, that is weakened"};
-constexpr Quantity sediment_weak{"sediment_weak_fraction", "1",
+constexpr Quantity sediment_weak{"sediment_weak_fraction", "1", "weakened share of sediment",
                                  "share of the sediment, by area, that is weakened"};
 constexpr Quantity porosity_error{
-    "porosity_error", "1",
+    "porosity_error", "1", "error of porosity",
     "mean of abs(porosity / Phi(depth) - 1) over the sediment's mass, porosity by mass and radius "
     "of a disc, depth below the surface of the discs, without discs laid down in the last 100 m, "
     "which still compact and count for no burial yet"};
-constexpr Quantity porosity_off{"porosity_off_fraction", "1",
+constexpr Quantity porosity_off{"porosity_off_fraction", "1", "sediment with a wrong porosity",
                                 "share of the sediment's mass whose porosity is more than 2 % off: "
                                 "sediment that has risen keeps its porosity"};
 constexpr Quantity superposition_share{
-    "superposition_fraction", "1",
+    "superposition_fraction", "1", "sediment in the order of its age",
     "share of touching pairs of sediment discs of different strata, one within 45 degrees above "
     "the other, whose upper disc is the younger"};
 constexpr Quantity above_target{
-    "discs_above_target", "1",
+    "discs_above_target", "1", "discs above the target line",
     "discs that lie wholly above the line that the surface is adapted to"};
 constexpr Quantity shear_in_layers{
-    "bedding_shear_in_layers", "1",
+    "bedding_shear_in_layers", "1", "shear along the bedding in layers",
     "mean shear along the bedding since the start in layers of rock, up to 3: tangent of the angle "
     "by which a line across the bedding has turned against it, from the deformation gradient "
     "within "
     "1.5 mean diameters"};
 constexpr Quantity shear_between{
-    "bedding_shear_between_layers", "1",
+    "bedding_shear_between_layers", "1", "shear along the bedding between layers",
     "`bedding_shear_in_layers` in rock of no layer between the highest and the lowest one"};
 
 /// A layer compacts, and what is below it, in this travel after it was laid down, m: in four

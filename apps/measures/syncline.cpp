@@ -18,19 +18,20 @@ using namespace dem;
 namespace {
 
 constexpr Quantity rollover_count{
-    "rollovers", "1",
+    "rollovers", "1", "rollovers",
     "ramp-flat-ramp: maxima with a prominence of 10 degrees of the rotation along x of the "
     "uppermost 4 km of pre-rift rock (columns of 1 km, mean of three)"};
 constexpr Quantity syncline_turn{
-    "syncline_turn_deg", "deg", "ramp-flat-ramp: least rotation between the two largest rollovers"};
-constexpr Quantity upper_graben{"upper_graben_prominence_m", "m",
+    "syncline_turn_deg", "deg", "turn of the syncline",
+    "ramp-flat-ramp: least rotation between the two largest rollovers"};
+constexpr Quantity upper_graben{"upper_graben_prominence_m", "m", "prominence of the upper graben",
                                 "ramp-flat-ramp: largest prominence of the basins beyond the first "
                                 "up to 3 km beyond the kink. 0: none"};
 constexpr Quantity syncline_basin{
-    "syncline_basin_prominence_m", "m",
+    "syncline_basin_prominence_m", "m", "prominence of the syncline's basin",
     "ramp-flat-ramp: largest prominence of the basins further beyond the kink. 0: none"};
 constexpr Quantity lower_graben{
-    "lower_graben_prominence_m", "m",
+    "lower_graben_prominence_m", "m", "prominence of the lower graben",
     "ramp-flat-ramp: second largest prominence of the basins further beyond the kink. 0: none"};
 
 /// Beyond the kink the most prominent basin is the syncline's, the next a collapse graben.

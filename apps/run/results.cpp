@@ -1,11 +1,10 @@
 #include "apps/run/results.hpp"
 
-#include "apps/archive/quality.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace listric {
 
@@ -77,40 +76,6 @@ std::string main_faults(const FaultReport& report) {
                              report.faults.size(), least_main_dip);
 }
 
-/// Whether the balance of areas is as it should be; none: it has no bounds in this run.
-std::optional<bool> balances(const Results& r) {
-    const std::optional<double> balance = r.measures.area_balance;
-    if (!balance || r.base_moves ||
-        !has_come_to(r.extension, archive::area_balance_from, r.half_a_cycle))
-        return std::nullopt;
-    return archive::least_area_balance <= *balance && *balance <= archive::most_area_balance;
-}
-
-/// Whether the run is good, with the numbers that show it.
-std::string quality(const Results& r) {
-    bool good = r.measures.mass_error_fraction < archive::most_mass_error;
-    std::vector<std::string> parts;
-    if (r.measures.quasi_static) {
-        good = good && *r.measures.quasi_static;
-        parts.emplace_back(*r.measures.quasi_static ? "quasi-static" : "not quasi-static");
-    }
-    parts.push_back(fmt::format("mass error {:.0e}", r.measures.mass_error_fraction));
-    if (r.volume_error_fraction) {
-        good = good && *r.volume_error_fraction < archive::most_volume_error;
-        parts.push_back(fmt::format("volume error {:.2g} %", 100.0 * *r.volume_error_fraction));
-    }
-    if (const auto balanced = balances(r)) {
-        good = good && *balanced;
-        parts.emplace_back(*balanced ? "areas balance" : "areas do not balance");
-    } else if (r.measures.area_balance) {
-        parts.push_back(
-            fmt::format("balance of areas not judged {}", r.base_moves   ? "on a moving base"
-                                                          : r.has_stages ? "below 5 km of extension"
-                                                                         : "before 5 km"));
-    }
-    return fmt::format("{}: {}", good ? "good" : "doubtful", fmt::join(parts, ", "));
-}
-
 } // namespace
 
 std::vector<std::string> result_lines(const Results& r) {
@@ -118,7 +83,7 @@ std::vector<std::string> result_lines(const Results& r) {
     if (r.measures.depocentres)
         lines.push_back(depocentres_of(*r.measures.depocentres));
     lines.push_back(main_faults(r.faults) + off_faults(r.faults));
-    lines.push_back(quality(r));
+    std::ranges::copy(archive::verdict_lines(r.quality), std::back_inserter(lines));
     std::erase(lines, "");
     return lines;
 }

@@ -112,8 +112,8 @@ std::string RunView::place_text(std::optional<double> interval) const {
             length = metres + 0.0;
         return interval ? length_text(length, *interval) : length_text(length);
     };
-    return has_stages() ? fmt::format("{} of extension after a way of {}", text(extension().m),
-                                      text(travel().m))
+    return has_stages() ? fmt::format("{} of net extension after {} of wall motion",
+                                      text(extension().m), text(travel().m))
                         : fmt::format("{} of extension", text(extension().m));
 }
 

@@ -58,7 +58,8 @@ public:
 
     bool has_stages() const { return !simulation.base().motion.stages.empty(); }
 
-    /// "5 km of extension"; with stages of motion "1 km of extension after a way of 9 km".
+    /// "5 km of extension"; with stages of motion "1 km of net extension after 9 km of wall
+    /// motion".
     /// @param interval  extensions that texts tell apart, m; none: length_text()'s own
     std::string place_text(std::optional<double> interval = {}) const;
 

@@ -2,6 +2,8 @@
 
 #include "apps/scene/tables.hpp"
 #include "apps/scene/toml.hpp"
+#include "apps/support/number.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -11,13 +13,33 @@ namespace listric {
 
 namespace {
 
+/// Two numbers with the digits that tell them apart, six at least.
+void shorten(std::string& first, std::string& second) {
+    constexpr int fewest = 6, most = 17;
+    const auto a = parse_number(first), b = parse_number(second);
+    if (!a || !b || (first + second).find('.') == std::string::npos) // whole numbers are exact
+        return;
+    for (int count = fewest; count < most; ++count) {
+        const auto rounded = [&](double value) {
+            return text(*parse_number(fmt::format("{:.{}g}", value, count)));
+        };
+        if (rounded(*a) == rounded(*b))
+            continue;
+        first = rounded(*a);
+        second = rounded(*b);
+        return;
+    }
+}
+
 void compare(const std::string& before, const std::vector<Parameter>& parameters, const void* first,
              const void* second, std::vector<SceneDifference>& found) {
     for (const Parameter& parameter : parameters) {
-        const std::string a = value_text(parameter, first), b = value_text(parameter, second);
-        if (a != b)
-            found.push_back(
-                {fmt::format("{}{}", before, parameter.key), std::string(parameter.unit), a, b});
+        std::string a = value_text(parameter, first), b = value_text(parameter, second);
+        if (a == b)
+            continue;
+        shorten(a, b);
+        found.push_back(
+            {fmt::format("{}{}", before, parameter.key), std::string(parameter.unit), a, b});
     }
 }
 

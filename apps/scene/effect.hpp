@@ -136,7 +136,7 @@ struct Observation {
 
 /// An object of summary.json, or a list of such objects.
 struct MeasuredObjects {
-    std::string_view name, unit, doc;
+    std::string_view name, unit, label, doc;
     std::vector<Quantity> parts = {}; ///< of an object; none: named by what is measured
     /// None: it has no meaning there.
     std::optional<std::vector<NamedNumbers>> (*value)(const Observation& now) = nullptr;

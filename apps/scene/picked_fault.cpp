@@ -1,5 +1,6 @@
 #include "apps/scene/picked_fault.hpp"
 
+#include "apps/scene/coordinates.hpp"
 #include "apps/scene/fault_fit.hpp"
 #include "apps/scene/fault_svg.hpp"
 #include "apps/scene/kept_fit.hpp"
@@ -77,12 +78,12 @@ void check_breakaway(const FaultPoints& fault, double tolerance) {
         refuse(place_of(fault, 0),
                fmt::format("begins at x = {} m, but the breakaway is at x = 0; give "
                            "detachment.shift_x_m = {}, more by that than now",
-                           text(first.x), text(-first.x)));
+                           to_millimetres(first.x), to_millimetres(-first.x)));
     if (std::abs(first.y) > tolerance)
         refuse(place_of(fault, 0),
                fmt::format("begins at a depth of {} m, but the breakaway is at the original "
                            "surface; add the point of depth 0 before it",
-                           text(-first.y)));
+                           to_millimetres(-first.y)));
 }
 
 /// Angle between two directions, radians.
@@ -141,7 +142,7 @@ void check_descent(const FaultPoints& fault, double tolerance) {
         refuse(place_of(fault, fault.points.size() - 1),
                fmt::format("the fault is flat: it is nowhere deeper than {} m, needed: more than "
                            "tolerance_m = {}; are depths in metres?",
-                           text(std::max(0.0, -deepest->y)), text(tolerance)));
+                           to_millimetres(std::max(0.0, -deepest->y)), text(tolerance)));
 }
 
 void check_points(const FaultPoints& fault, double tolerance) {
@@ -163,13 +164,13 @@ void check_points(const FaultPoints& fault, double tolerance) {
             refuse(place_of(fault, k),
                    fmt::format("depth_m: {} is above the original surface; depth "
                                "is positive down",
-                               text(-p.y)));
+                               to_millimetres(-p.y)));
         if (-p.y > deep || std::abs(p.x) > far)
             refuse(place_of(fault, k),
                    fmt::format("x_m = {}, depth_m = {} is out of range, allowed: x_m -1e6 to 1e6, "
                                "depth_m to 1e5; is it in metres? From map "
                                "coordinates detachment.shift_x_m leads to the breakaway",
-                               text(p.x), text(-p.y)));
+                               to_millimetres(p.x), to_millimetres(-p.y)));
     }
     check_order(fault, tolerance);
     check_breakaway(fault, tolerance);

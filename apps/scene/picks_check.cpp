@@ -1,4 +1,5 @@
 #include "apps/scene/picks_check.hpp"
+#include "apps/scene/coordinates.hpp"
 #include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/stage.hpp"
 
@@ -93,7 +94,7 @@ private:
             std::ranges::none_of(picks_, [](const Pick& pick) { return pick.depth > 0.0; });
         const std::string what =
             fmt::format("depth_m: {} is above the original surface{}; depth is positive down",
-                        text(first->depth),
+                        to_millimetres(first->depth),
                         count == 1 ? "" : fmt::format(", as {} of {} picks", count, picks_.size()));
         if (all && greatest(picks_, &Pick::depth) > 0.1 * thickness_)
             refuse(*first, what);
@@ -106,10 +107,11 @@ private:
         const double x = greatest(picks_, &Pick::x), depth = greatest(picks_, &Pick::depth);
         const bool near = x < tiny * scene_.hanging_wall.length && picks_.size() > 1;
         const bool shallow = depth > 0.0 && depth < tiny * thickness_;
-        const std::string ask = fmt::format(
-            "picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
-            "in metres?",
-            text(x), text(depth), metres(scene_.hanging_wall.length), metres(thickness_));
+        const std::string ask =
+            fmt::format("picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
+                        "in metres?",
+                        to_millimetres(x), to_millimetres(depth),
+                        metres(scene_.hanging_wall.length), metres(thickness_));
         if (near && shallow)
             refuse(picks_.front(), ask);
         if (near || shallow)
@@ -130,8 +132,8 @@ private:
             "to {}{}; it has room from {} to {} and down to {}{}",
             inside == 0 ? fmt::format("all {}", picks_.size())
                         : fmt::format("{} of {}", picks_.size() - inside, picks_.size()),
-            metres(least->x - shift_), metres(most->x - shift_), text(high->depth),
-            text(low->depth),
+            metres(least->x - shift_), metres(most->x - shift_), to_millimetres(high->depth),
+            to_millimetres(low->depth),
             shift_ == 0.0 ? "" : fmt::format(", with a shift of {} m", text(shift_)),
             metres(room.left), metres(room.right), metres(room.bottom), cure(room, *least, *most));
         if (inside == 0)

@@ -19,10 +19,11 @@ enum class OverTime {
     none ///< it is in history.csv alone
 };
 
-/// Name, unit and definition of a value in a file.
+/// Name, unit, label and definition of a value in a file.
 struct Quantity {
     std::string_view name;
-    std::string_view unit; ///< "1": a ratio or a count; none: no number
+    std::string_view unit;  ///< "1": a ratio or a count; none: no number
+    std::string_view label; ///< a noun for people, in tables and charts
     std::string_view doc;
     OverTime over = OverTime::last;
     std::string_view usual = {}; ///< value of a good run, where documents give one
@@ -30,7 +31,7 @@ struct Quantity {
 
 /// A quantity that is a number, and the function that takes it.
 template <class Subject> struct Measure {
-    std::string_view name, unit, doc;
+    std::string_view name, unit, label, doc;
     /// None: it has no meaning there. Not finite: it has one, but no value. Null: see who declares.
     std::optional<double> (*value)(const Subject& subject) = nullptr;
     OverTime over = OverTime::last;
@@ -39,7 +40,7 @@ template <class Subject> struct Measure {
     /// they do not.
     std::string_view said = {};
 
-    constexpr Quantity quantity() const { return {name, unit, doc, over, usual}; }
+    constexpr Quantity quantity() const { return {name, unit, label, doc, over, usual}; }
 };
 
 inline void add(NamedNumbers& numbers, const Quantity& quantity, std::optional<double> value) {

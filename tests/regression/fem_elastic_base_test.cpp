@@ -241,7 +241,7 @@ TEST_F(ElasticBaseRun, SaysOnTheWayBackWhereItEnds) {
         run(soft, "soft");
         FAIL() << "a footwall of clay has carried it";
     } catch (const NumericalFailure& failure) {
-        EXPECT_THAT(failure.what(), AllOf(HasSubstr(" m of extension after a way of "),
+        EXPECT_THAT(failure.what(), AllOf(HasSubstr(" m of net extension after "),
                                           HasSubstr("linear elasticity means up to 10 %")));
     }
 }

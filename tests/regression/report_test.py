@@ -379,6 +379,60 @@ class Report(Browsed):
             if "." in mantissa and name != "state_hash":
                 self.assertLessEqual(len(mantissa.replace(".", "").replace("-", "").lstrip("0")), 5, (name, value))
 
+    def test_07f_a_result_has_its_error_in_its_own_row(self):
+        self.open()
+        known = {"resolution": -0.18, "speed": 0.004, "spread": "unknown"}   # the mean less that of finer grain, of a slower wall
+        told = lambda *a: self.script("return valueAndError(...a);", *a)
+        self.assertEqual(told(0.832, "1", 93.1, known), ["0.83", "finer grain: +0.18"])
+        self.assertEqual(told(17900.0, "m", 93.1, {"spread": 450.0, "speed": 6100.0}), ["17.9 km", "slower wall: −6.1; other seeds: ±0.5"])
+        self.assertEqual(told(38.12, "deg", 93.1, {"resolution": 0.03}), ["38.1°", ""])   # less than the last digit
+        self.assertEqual(told(0.832, "1", 93.1, {"resolution": "unknown"}), ["0.832", ""])
+        rows = ("page.runs[0].head.summary.known_errors = a[0]; drawTables(); return [...$('main_measures').rows]"
+                ".map(row => [row.dataset.key, ...[...row.cells].slice(1).map(cell => cell.textContent)]);")
+        found = {row[0]: row[1:] for row in self.script(rows, [{"measure": "strain_top10", **known}])}
+        self.assertEqual(found["strain_top10"][1], "(finer grain: +0.18)")
+        self.assertEqual(found["basin_area_m2"][1], "")
+        self.assertTrue(all(len(row) == 2 for row in self.script(rows, [])))   # nothing is known: no column
+        self.assertNotIn("Errors of these", self.driver.find_element("tag name", "body").text)
+
+    def test_07g_paper_has_all_that_is_promised(self):
+        self.open()
+        command = self.driver.execute_cdp_cmd
+        printed = base64.b64decode(command("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})["data"])
+        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", printed)), 1)
+        # The page between its margins, 277 by 190 mm, as the printer has it.
+        command("Emulation.setDeviceMetricsOverride", {"width": 1047, "height": 718, "deviceScaleFactor": 1, "mobile": False})
+        command("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            parts = self.script("return [...document.querySelectorAll('.section, #legend, .check, #faults td, #main_measures td, footer')]"
+                                ".map(part => [part.closest('[id]').id, ...['left', 'right'].map(side => part.getBoundingClientRect()[side])]);")
+        finally:
+            command("Emulation.setEmulatedMedia", {"media": ""})
+            command("Emulation.clearDeviceMetricsOverride", {})
+        for name, left, right in parts:
+            self.assertTrue(-1 <= left < right <= 1048, (name, left, right))   # seen, and not cut off
+        self.assertLessEqual({"sections", "legend", "quality", "faults", "main_measures", "footer"}, {name for name, *_ in parts})
+
+    def test_07h_the_view_has_room_for_what_is_there(self):
+        self.open()
+        room = ("const [run] = page.runs, last = run.moments.length - 1, id = run.codes[last].present.findIndex(Boolean);"
+                "run.values(last, 'depth_m')[id] = a[0]; run.values(last, 'x_m')[id] = a[1]; delete run.extent; layOut(); showWhole();"
+                "const s = page.sections[0], [x, y] = s.toPixel(page.view, a[1], a[0]); return [x, y, s.discCanvas.width, s.discCanvas.height];")
+        for depth, place in ((-4000.0, 20000.0), (500.0, -6000.0), (500.0, 60000.0), (22000.0, 20000.0)):
+            x, y, width, height = self.script(room, depth, place)
+            self.assertTrue(20 < x < width - 5 and 20 < y < height - 5, (depth, place, x, y, width, height))
+
+    def test_07i_two_fingers_zoom(self):
+        self.open()
+        self.script("Element.prototype.setPointerCapture = () => {}; return 0;")
+        touch = ("const c = page.sections[0].lineCanvas, b = c.getBoundingClientRect(); for (const [type, id, x, y] of a[0]) c.dispatchEvent("
+                 "new PointerEvent(type, {clientX: b.left + x, clientY: b.top + y, pointerId: id})); return [page.view.scale, page.picked];")
+        before = self.script("return page.view.scale;")
+        scale, picked = self.script(touch, [["pointerdown", 1, 300, 100], ["pointerdown", 2, 400, 100], ["pointermove", 2, 500, 100],
+                                            ["pointerup", 2, 500, 100], ["pointerup", 1, 300, 100]])
+        self.assertAlmostEqual(scale / before, 2.0, delta=0.01)
+        self.assertIsNone(picked)   # fingers that zoom click nothing
+
     def test_07e_throws_are_points_and_thin_strata_have_none(self):
         self.open()
         # Horizon, depth above and below the fault, whether it is resolved, error of the throw.

@@ -40,6 +40,7 @@ import journal
 import laboratory
 import page
 import panels
+import picture
 import scales
 import script
 import sections
@@ -104,12 +105,12 @@ def png_of(kind, bits, levels):
 
 class Underlay(Folder):
     def test_its_corners_fall_on_their_pixels(self):
-        picture = np.ones((20, 40, 3))
+        pixels = np.ones((20, 40, 3))
         colours = {(0, 0): (1, 0, 0), (0, -1): (0, 1, 0), (-1, 0): (0, 0, 1), (-1, -1): (1, 0, 1)}
         for (row, column), colour in colours.items():
             rows, columns = (slice(0, 4) if k == 0 else slice(-4, None) for k in (row, column))
-            picture[rows, columns] = colour
-        plot.matplotlib.image.imsave(self.path("section.png"), picture)
+            pixels[rows, columns] = colour
+        plot.matplotlib.image.imsave(self.path("section.png"), pixels)
         # 1 to 3 km of a section from 0 to 4 km, 200 to 800 m deep.
         corners = [1000.0, 200.0, 3000.0, 800.0]
         frame = self.frame(meta={"underlay": {"image": self.path("section.png"),
@@ -143,7 +144,7 @@ class Underlay(Folder):
         for broken in (b"", whole[:40], whole[:60]):
             Path(self.path("section.png")).write_bytes(broken)
             with self.assertRaisesRegex(plot.InputError, "section.png"):
-                panels.read_picture(self.path("section.png"))
+                picture.read_picture(self.path("section.png"))
 
     def test_a_grey_picture_keeps_its_greys(self):
         ramp = np.linspace(64, 191, 12).round().astype(np.uint8)   # not from black to white
@@ -151,9 +152,9 @@ class Underlay(Folder):
         kinds = {"8": grey, "16": Image.fromarray(np.tile(ramp.astype(np.uint16) * 257, (8, 1))),
                  "alpha": grey.convert("LA"), "palette": grey.convert("P"), "rgb": grey.convert("RGB"),
                  "1": grey.point(lambda value: 255 * (value > 127)).convert("1", dither=0)}
-        for name, picture in kinds.items():
-            picture.save(self.path("section.dat"), format="png")    # known by what it is
-            found = panels.read_picture(self.path("section.dat"))
+        for name, one in kinds.items():
+            one.save(self.path("section.dat"), format="png")    # known by what it is
+            found = picture.read_picture(self.path("section.dat"))[0] / 255.0
             self.assertIn(found.shape, ((8, 12, 3), (8, 12, 4)), name)
             wanted = ramp / 255.0 if name != "1" else (ramp > 127).astype(float)
             for channel in range(3):
@@ -176,7 +177,7 @@ class Underlay(Folder):
                 top = 2**bits - 1
                 levels = [top * x // (width - 1) for x in range(width)]
                 Path(self.path("ramp.png")).write_bytes(png_of(kind, bits, levels))
-                found = panels.read_picture(self.path("ramp.png"))
+                found = picture.read_picture(self.path("ramp.png"))[0] / 255.0
                 self.assertEqual(found.shape, (3, width, 4 if kind in (4, 6) else 3), (kind, bits))
                 for channel in range(3):   # to a step of 8 bits, to which Pillow reduces colours of 16
                     np.testing.assert_allclose(found[1, :, channel], np.array(levels) / top, atol=1 / 255, err_msg=f"{kind}, {bits}")
@@ -189,14 +190,14 @@ class Underlay(Folder):
         exif = Image.Exif()
         exif[0x0112] = 6                                     # the camera was turned: clockwise by 90 degrees
         Image.fromarray(lying).save(self.path("photo.png"), format="jpeg", quality=95, exif=exif)
-        found = panels.read_picture(self.path("photo.png"))  # known by what it is
+        found = picture.read_picture(self.path("photo.png"))[0] / 255.0  # known by what it is
         self.assertEqual(found.shape, (32, 16, 3))
         np.testing.assert_allclose(found[4, 8], (0, 0, 0), atol=0.03)
         np.testing.assert_allclose(found[28, 8], (1, 128 / 255, 0), atol=0.03)
         whole = Path(self.path("photo.png")).read_bytes()
         Path(self.path("photo.png")).write_bytes(whole[:-40])
         with self.assertRaisesRegex(plot.InputError, "photo.png: cannot be read as PNG or JPEG"):
-            panels.read_picture(self.path("photo.png"))
+            picture.read_picture(self.path("photo.png"))
 
 
 class Reading(Folder):
@@ -533,14 +534,14 @@ class Drawing(Folder):
               {"extension_m": 1000.0, "way_m": 9000.0, "extension_km": "9.0"})   # 5 km out, 4 km back
 
     def test_headlines_tell_the_way_from_the_extension(self):
-        after = ["5 km of extension after a way of 5.0 km", "1 km of extension after a way of 9.0 km"]
+        after = ["5 km of net extension after 5.0 km of wall motion", "1 km of net extension after 9.0 km of wall motion"]
         frames_ = [self.frame(meta) for meta in self.STAGES]
         self.assertEqual([page.moment_text(frame) for frame in frames_], after)
         [headline] = [text.get_text() for text in sheet.draw_sheet(frames_).texts if text.get_text().startswith("a title")]
         self.assertEqual(headline, f"a title: {after[0]} and {after[1]}")
         for least in (-0.0116, 0.0, 0.0093):    # 3 km out and back, to half a cycle
             there = self.frame({"extension_m": least, "way_m": 6000.0, "extension_km": "6.0"})
-            self.assertEqual(page.moment_text(there), "0 km of extension after a way of 6.0 km")
+            self.assertEqual(page.moment_text(there), "0 km of net extension after 6.0 km of wall motion")
         plain = [self.frame({"extension_m": 1000.0 * km}) for km in (5.0, 10.0)]
         self.assertIn("a title: 5.0 and 10.0 km of extension", [text.get_text() for text in sheet.draw_sheet(plain).texts])
         columns = {name: [1.0, 2.0] for name in ("depth_m", *(line[0] for _, lines in wells.PANELS for line in lines))}
@@ -558,7 +559,7 @@ class Drawing(Folder):
                          "0.012 and 0.016 m of extension")
         self.assertEqual(page.extension_text(frame), "0.000012")     # as in names of files
         back = self.frame({**meta, "way_m": 0.02, "extension_m": 0.0043, "extension_km": "0.00002"}, **small)
-        self.assertEqual(journal.moment_line(back), "0.0043 m of extension after a way of 0.02 m, 1.2 a")
+        self.assertEqual(journal.moment_line(back), "0.0043 m of net extension after 0.02 m of wall motion, 1.2 a")
         self.assertIn("After 0.012 m of extension at 1 cm/yr (1.2 a): ", caption.caption(["bonds"], None, frame, plot.Order()))
 
     def test_times_are_years_in_short_runs_and_tell_neighbours_apart(self):
@@ -848,7 +849,7 @@ ALL_PANELS = ("strata", "bonds", "behaviour", "strain", "sediment", "kinematics"
 
 def texts(figure):
     """Texts that are seen, with their boxes in pixels."""
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     renderer = figure.canvas.get_renderer()
     shown = [text for text in figure.findobj(plot.matplotlib.text.Text) if text.get_visible() and text.get_text().strip()]
     off = [label for ax in figure.axes if not ax.axison for label in ax.findobj(plot.matplotlib.text.Text)]
@@ -884,6 +885,33 @@ class Print(Folder):
                     words = [text.get_text() for text, _ in seen]
                     self.assertLessEqual(set("abcdefghi"), set(words))
                     self.assertEqual("LIS1" in " ".join(words), not plain)
+
+    def model(self, depth, **meta):
+        """A frame of a model of that depth (m), 40 km long, with twenty strata and many depocentres."""
+        ages = [50000.0 * (k + 1) for k in range(20)]
+        return self.frame({"right_wall_x_m": 40000.0, "strata_a": ages, "strata": 20, "strain_end": 0.12, "mean_radius_m": 93.1, "seed": 1,
+                           "accuracy": "standard", "strain_remark": " without compaction", "extension_m": 2250.0, **meta}, **{
+                               **PRINTED, "discs_stratum": [0, 0, 10, 20], "discs_shear_strain": [0.0, 0.1, 0.51, np.nan],
+                               "depocentres": [[x, 400.0, 300.0] for x in (2000.0, 9000.0, 9800.0, 31000.0)],
+                               "detachment": [[0.0, 0.0], [0.3 * depth, -0.7 * depth], [depth, -depth], [40000.0, -depth]]})
+
+    LONG = "A detachment picked from a line across the Northern North Sea, its name as long as descriptions of users' own sections are"
+
+    def test_every_text_lies_on_the_page_and_none_over_another(self):
+        for width in (85.0, 120.0, 180.0):
+            for depth in (15000.0, 2500.0):
+                for title, plain in ((self.LONG, False), ("LIS1", True)):
+                    with self.subTest(width=width, depth=depth, plain=plain), plot.matplotlib.rc_context(plot.STYLE):
+                        figure, _ = journal.draw_print(self.model(depth, title=title), ALL_PANELS, plot.Order(width_mm=width, plain=plain, dpi=144))
+                        seen, page_box = texts(figure), figure.bbox
+                        self.assertGreater(len(seen), 60)
+                        outside = [text.get_text() for text, box in seen
+                                   if box.x0 < page_box.x0 - 1 or box.y0 < page_box.y0 - 1 or box.x1 > page_box.x1 + 1 or box.y1 > page_box.y1 + 1]
+                        self.assertEqual(outside, [])
+                        over = [(one.get_text(), other.get_text()) for n, (one, box) in enumerate(seen) for other, other_box in seen[:n]
+                                if min(box.x1, other_box.x1) - max(box.x0, other_box.x0) > 2 and
+                                min(box.y1, other_box.y1) - max(box.y0, other_box.y0) > 2]   # of letters 16 pixels high
+                        self.assertEqual(over, [])
 
     def test_what_is_not_at_equal_scales_says_so(self):
         figure, said = journal.draw_print(self.wide(), ("strata", "sediment"), self.order(85.0))
@@ -951,7 +979,7 @@ class Print(Folder):
         frame.horizons = np.array([[0.0, 0.0, -0.9], [0.0, 0.5, -0.9]])
         for width, words in ((0.0, {}), (0.0, {"plain": True}), (85.0, {}), (85.0, {"plain": True}), (85.5, {})):
             sections.save_sections([frame], self.folder, plot.Order(width_mm=width, only=("strata",), caption=True, **words))
-        with mock.patch.object(panels, "read_picture", return_value=np.ones((2, 2, 3))):
+        with mock.patch.object(panels, "read_picture", return_value=(np.ones((2, 2, 3)), (0.0, 0.0, 1.0, 1.0))):
             sections.save_sections([frame], self.folder, plot.Order(only=("underlay",), caption=True))
         names = {"strata-2.0km", "strata-2.0km-plain", "strata-2.0km-85mm", "strata-2.0km-85mm-plain", "strata-2.0km-85.5mm",
                  "underlay-2.0km-line_7-0123abcd"}

@@ -46,7 +46,7 @@ TEST(Quality, AsksEveryQuestionOfAGoodRun) {
                 testing::ElementsAre("quasi_static", "mass_error_fraction", "volume_error_fraction",
                                      "area_balance", "width_diameters", "sediment_stress_ratio"));
     EXPECT_THAT(values,
-                testing::ElementsAre("yes: unbalanced 0.00096, inertial 0.0006", "error 9e-15",
+                testing::ElementsAre("unbalanced 0.00096, inertial 0.0006", "error 9e-15",
                                      "error 0.058 %", "0.981", "2.4 to 3.1", "1.00"));
     EXPECT_THAT(bounds,
                 testing::ElementsAre("at most 0.01, 0.002", "below 1e-12", "below 0.1 %",
@@ -65,6 +65,20 @@ TEST(Quality, EveryBoundCanBeMissed) {
         for (const QualityCheck& check : checks_of(summary))
             EXPECT_EQ(check.verdict == Verdict::doubtful, check.key == key) << key << check.key;
     }
+}
+
+TEST(Quality, OneVerdictIsToldEverywhere) {
+    EXPECT_EQ(verdict_of(checks_of(good_run())), Verdict::good);
+    EXPECT_THAT(verdict_lines(checks_of(good_run())),
+                testing::ElementsAre("good: quasi-static, mass error 9e-15, volume error 0.058 %, "
+                                     "areas balance"));
+    JsonObject leaky = good_run();
+    leaky["volume_error_fraction"] = 1.6e-3;
+    EXPECT_EQ(verdict_of(checks_of(leaky)), Verdict::doubtful);
+    EXPECT_THAT(verdict_lines(checks_of(leaky)),
+                testing::ElementsAre(testing::StartsWith("doubtful: quasi-static"),
+                                     testing::HasSubstr("fault_weakening.update_interval_a")));
+    EXPECT_TRUE(verdict_lines({}).empty()); // nothing is judged
 }
 
 TEST(Quality, AreasAreNotJudgedWhereTheirBoundsDoNotHold) {

@@ -23,6 +23,15 @@ TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
     EXPECT_THAT(html, HasSubstr(R"j("label":"dip at birth (°)","name":"dip_at_birth_deg")j"));
 }
 
+TEST(ReportPage, EveryMeasureHasALabelForPeople) {
+    for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects())) {
+        EXPECT_THAT(entry.quantity.label, Not(testing::IsEmpty())) << entry.quantity.name;
+        EXPECT_THAT(entry.quantity.label, Not(HasSubstr("_"))) << entry.quantity.name;
+        EXPECT_EQ(archive::label_of(entry.quantity.name), entry.quantity.label)
+            << entry.quantity.name;
+    }
+}
+
 TEST(ReportPage, NamesRocksAsTheyWereRecordedAndGuessesNone) {
     Scene scene; // the numbers of mat18-b
     const ReportMoments moments;

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
-FOOTWALL = "#efeeeb"
+FOOTWALL, FOOTWALL_WORD = "#efeeeb", "footwall"
 # Slip-rate classes of active faults: upper bound over the rate of the wall, line width (pt), label.
 FAULT_CLASSES = ((0.05, 0.8, "slip < {1:g} mm/a"), (0.1, 1.5, "slip {0:g}–{1:g} mm/a"),
                  (math.inf, 2.4, "slip > {0:g} mm/a"))
@@ -37,7 +37,7 @@ def section_axes(ax, frame: Frame) -> None:
     ax.plot(*line.T, color=INK, linewidth=1.5, zorder=5, solid_joinstyle="round")
     ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3 * frame.unit), color=FAINT, linewidth=1.0,
             zorder=5)
-    ax.text(xmin + 0.3 * frame.unit, ymin + 0.25 * frame.unit, "footwall", color=FAINT, fontsize=9,
+    ax.text(xmin + 0.3 * frame.unit, ymin + 0.25 * frame.unit, FOOTWALL_WORD, color=FAINT, fontsize=9,
             style="italic", va="bottom", zorder=6,   # on the footwall's grey, over an image, too
             bbox={"facecolor": FOOTWALL, "linewidth": 0, "pad": 0.8})
     ax.set_xlim(xmin, xmax)

@@ -1,10 +1,10 @@
-"""Captions: what a figure shows and how it was made."""
+"""Captions of figures, as a journal has them, and beside them how figures were made."""
 import json
 import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import letter, moment_text, strain_remark, time_text, window_text
+from page import letter, moment_text, strain_remark, time_text, window_text, without_source
 from plot import Order
 
 SHOWN = {
@@ -19,9 +19,9 @@ SHOWN = {
     "seismic-depth": "synthetic seismic image in depth",
     "underlay": "the model's horizons and faults over a picture of a section",
 }
-SEISMIC = ("The seismic image is reflectivity convolved with a Ricker wavelet of {frequency:g} Hz: velocity by porosity "
-           "(Wyllie et al. 1956), weakened rock slower by 15 %, layers faster and slower by turns (5 %, assumed); "
-           "neither migration nor noise. Black: the rock below is harder.")
+SEISMIC = "Seismic image: Ricker wavelet of {frequency:g} Hz, neither migration nor noise. Black: the rock below is harder."
+SEISMIC_MADE = ("The seismic image is reflectivity convolved with a Ricker wavelet of {frequency:g} Hz: velocity by porosity "
+                "(Wyllie et al. 1956), weakened rock slower by 15 %, layers faster and slower by turns (5 %, assumed).")
 FAULTS = ("strata", "strain", "behaviour", "underlay", "seismic-depth")
 
 
@@ -48,19 +48,32 @@ def caption(names: Sequence[str], said: Sequence[str | None] | None, frame: Fram
                    f"{top:g} to {bottom:g} m)")
     rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
-    parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
+    parts = [f"{order.software} model: {without_source(str(meta.get('title') or meta['scene']))}.",
              f"After {moment_text(frame)}{at} ({time_text(frame)}): {panels}."]
     if any(name in FAULTS or name.startswith("layer-") for name in names) and frame.faults is not None and len(frame.faults):
         parts.append("Black lines: faults active since the previous snapshot, wider where they slip faster.")
-    for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
-        if name in names and axes is not None:
-            parts.append(SEISMIC.format(frequency=axes[3]))
-            break
+    if frequency := frequency_of(names, frame):
+        parts.append(SEISMIC.format(frequency=frequency))
     if "inversion" in names and (words := meta.get("said")):
         parts.append("; ".join(words).capitalize() + ".")
-    parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
-                 f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
-    return " ".join(filter(None, [*parts, order.errors, provenance_text(order)]))
+    return " ".join(parts)
+
+
+def origin(names: Sequence[str], frame: Frame, order: Order) -> str:
+    """How a figure of these panels was made, and the errors of the run's results."""
+    meta, frequency = frame.meta, frequency_of(names, frame)
+    parts = [f"{order.software} model of scene {meta['scene']}: {len(frame.x):,} discs, mean radius "
+             f"{meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, accuracy {meta.get('accuracy', 'custom')}, "
+             f"seed {meta.get('seed', '?')}.", SEISMIC_MADE.format(frequency=frequency) if frequency else "", order.errors, provenance_text(order)]
+    return " ".join(filter(None, parts))
+
+
+def frequency_of(names: Sequence[str], frame: Frame) -> float | None:
+    """Of the wavelet of a seismic image among these panels, Hz."""
+    for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
+        if name in names and axes is not None:
+            return axes[3]
+    return None
 
 
 def provenance_text(order: Order) -> str:
@@ -71,10 +84,9 @@ def provenance_text(order: Order) -> str:
     return f"Made by {', '.join(known)}." if known else ""
 
 
-def write_captions(captions: dict[str, str], folder: str) -> None:
-    """caption.txt: a paragraph per figure, by the names of their files. Those of other calls stay as long as
-    their figures do."""
-    path = os.path.join(folder, "caption.txt")
+def write_captions(captions: dict[str, str], folder: str, name: str = "caption.txt") -> None:
+    """A paragraph per figure, by the names of their files. Those of other calls stay as long as their figures do."""
+    path = os.path.join(folder, name)
     there = {os.path.splitext(name)[0] for name in os.listdir(folder)}
     others = {name: text for name, text in read_captions(path).items() if name in there and name not in captions}
     temporary = f"{path}.{os.getpid()}.tmp"

@@ -1,5 +1,6 @@
 """A page of sections: its measures in inches, its headline and its small print."""
 import math
+import re
 import textwrap
 from collections.abc import Sequence
 from decimal import Decimal
@@ -63,7 +64,7 @@ def moment_words(meta: dict, way: str, unit: str = "km") -> str:
         return f"{length_text(way, unit)} {unit} of extension"
     least = 1e-4 * abs(meta["way_m"])   # a cycle ends near a round number: what is below that is 0
     extension = length_text(f"{round(meta['extension_m'] / least) * least / 1000 + 0.0:.3g}" if least else "0", unit)
-    return f"{extension} {unit} of extension after a way of {length_text(way, unit)} {unit}"
+    return f"{extension} {unit} of net extension after {length_text(way, unit)} {unit} of wall motion"
 
 
 def time_texts(times: Sequence[float], gap: float, end: float) -> tuple[list[str], str]:
@@ -115,13 +116,17 @@ LONGEST_HEADLINE = 110    # letters that fit on the page's width
 
 
 def title_of(frame: Frame, longest: int = LONGEST_TITLE) -> str:
-    """The scene's description, in at most so many letters: a longer one without its source, else up to its
+    """The scene's description, without its source and in at most so many letters: a longer one up to its
     colon, else some of its words; a scene without one has its name."""
-    title = str(frame.meta.get("title") or frame.meta["scene"].upper())
-    for end in (" [", ": "):
-        if len(title) > longest:
-            title = title.partition(end)[0]
+    title = without_source(str(frame.meta.get("title") or frame.meta["scene"].upper()))
+    if len(title) > longest:
+        title = title.partition(": ")[0]
     return textwrap.shorten(title, longest, placeholder="…")
+
+
+def without_source(title: str) -> str:
+    """A description without the source in brackets behind it, which the scene keeps."""
+    return re.sub(r" \[[^\]]*\]$", "", title)
 
 
 def headline(frame: Frame) -> str:
@@ -134,7 +139,7 @@ def footer(frame: Frame) -> list[str]:
     """Provenance of the run, as wrapped lines of small print."""
     meta, parts = frame.meta, []
     parts.append(f"scene {meta['scene']}")
-    title = str(meta.get("title", ""))
+    title = without_source(str(meta.get("title", "")))
     if not headline(frame).startswith(title):   # it has the title's beginning
         parts.append(title)
     radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)

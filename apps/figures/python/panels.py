@@ -3,15 +3,14 @@
 Every panel is drawn by a function of its axes, the axes of its colour bar and the frame.
 """
 import math
-import struct
-import zlib
 
 from axes import (bar, depth_axis, describe, distance_axis, draw_faults, exaggeration, section_axes, stroke,
                   swatch)
 from discs import draw_discs
 from frame import Frame, Layer
 from page import PANEL_WIDTH, PROFILE_HEIGHT, strain_remark, time_texts, window_text
-from plot import FAINT, INK, InputError
+from picture import read_picture
+from plot import FAINT, INK, RASTER_DPI
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
                         palette, stratum_colours)
@@ -22,7 +21,6 @@ from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColor
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
-from PIL import Image, ImageOps
 
 SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
 WEAK = "#d7301f"
@@ -107,10 +105,7 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
     cax.set_axis_off()
     underlay = frame.meta["underlay"]
     left, top, right, bottom = (value / 1000.0 for value in underlay["corners_m"])
-    limits = ax.axis()
-    ax.imshow(read_picture(underlay["image"]), extent=(left, right, -bottom, -top),
-              aspect="equal", interpolation="antialiased", zorder=1.2)
-    ax.axis(limits)
+    draw_picture(ax, underlay["image"], (left, -top, right, -bottom))
     style = dict(color=HORIZON, linewidth=0.9)
     for number in np.unique(frame.horizons[:, 0]):
         x, y = frame.horizons[frame.horizons[:, 0] == number, 1:].T
@@ -121,32 +116,21 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
     describe(ax, frame, "Model over the section", handles)
 
 
-def read_picture(path: str) -> np.ndarray:
-    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own.
-
-    A JPEG is turned as its camera says (Exif), as browsers do.
-    """
-    try:
-        with open(path, "rb") as file:
-            is_jpeg = file.read(3) == b"\xff\xd8\xff"   # whatever the file's name ends with
-        if is_jpeg:
-            with Image.open(path) as photo:
-                return np.asarray(ImageOps.exif_transpose(photo).convert("RGB")) / 255.0
-        with Image.open(path, formats=("PNG",)) as picture:
-            return png_colours(picture)
-    except (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, struct.error,
-            zlib.error) as failure:
-        raise InputError(f"{path}: cannot be read as PNG or JPEG ({failure})") from failure
-
-
-def png_colours(picture: Image.Image) -> np.ndarray:
-    """As read_picture has them, of any bit depth: Pillow stretches greys of 1, 2 and 4 bits to 8, and
-    keeps those of 16, while Matplotlib's own reader divides the stretched ones by their old range."""
-    if picture.mode.startswith("I"):
-        greys = np.asarray(picture) / np.float32(65535.0)
-        return np.repeat(greys[:, :, np.newaxis], 3, axis=2)
-    has_opacity = picture.mode in ("LA", "RGBA") or "transparency" in picture.info
-    return np.asarray(picture.convert("RGBA" if has_opacity else "RGB")) / np.float32(255.0)
+def draw_picture(ax, path: str, corners: tuple[float, float, float, float]) -> None:
+    """A picture with its left, upper, right and lower edge there (km, heights), as far as it is in view."""
+    (west, east), (low, high) = ax.get_xlim(), ax.get_ylim()
+    left, top, right, bottom = corners
+    box, dots = ax.get_window_extent(), max(1.0, RASTER_DPI / ax.figure.dpi)
+    size = (dots * box.width * (right - left) / (east - west), dots * box.height * (top - bottom) / (high - low))
+    edges = [(max(left, west) - left) / (right - left), (top - min(top, high)) / (top - bottom),
+             (min(right, east) - left) / (right - left), (top - max(bottom, low)) / (top - bottom)]
+    if edges[0] >= edges[2] or edges[1] >= edges[3]:   # beside the view
+        return
+    picture, (first_x, first_y, end_x, end_y) = read_picture(path, size, tuple(edges))
+    ax.imshow(picture, extent=(left + first_x * (right - left), left + end_x * (right - left),
+                               top - end_y * (top - bottom), top - first_y * (top - bottom)),
+              aspect="equal", interpolation="antialiased", zorder=1.2)
+    ax.set(xlim=(west, east), ylim=(low, high))
 
 
 def draw_observed(ax, frame: Frame) -> list:
@@ -252,7 +236,7 @@ def strain_panel(ax, cax, frame: Frame) -> None:
 def strain_bar(cax, limit: float, highest: float) -> None:
     above = highest > limit * (1 + 1e-9)
     colour_bar = bar(cax, strain_colours(), Normalize(0.0, limit),
-                     f"Shear strain (max. {highest:.2g})" if above else "Shear strain",
+                     f"Shear strain (max.\u00a0{highest:.2g})" if above else "Shear strain",
                      extend="max" if above else "neither", extendfrac=0.04)
     colour_bar.set_ticks(strain_ticks(limit))
     colour_bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:.3g}"))

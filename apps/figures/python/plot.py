@@ -6,6 +6,7 @@ and without the caller's settings.
 import contextlib
 import csv
 import json
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -39,6 +40,7 @@ STYLE = {
 # Text stays text, and equal figures are equal files.
 FILES = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "listric"}
 RAISED = str.maketrans("-−0123456789", "⁻⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MOST_PIXELS = 1e8
 RASTER_DPI = 300   # of what is an image within PDF and SVG
 
 
@@ -158,7 +160,12 @@ def moment_label(extension: float, last: float) -> str:
 
 
 def new_figure(width: float, height: float, dpi: float, **options) -> Figure:
-    """A white figure of that size in inches."""
+    """A white figure of that size in inches. It is refused where its picture would take gigabytes."""
+    across, up = width * dpi, height * dpi
+    if across * up > MOST_PIXELS:
+        raise InputError(f"a picture of {width * 25.4:.0f} x {height * 25.4:.0f} mm at {dpi:g} dpi has {across * up / 1e6:,.0f} million pixels, "
+                         f"of which {MOST_PIXELS / 1e6:.0f} million are allowed: take --dpi {math.floor(dpi * math.sqrt(MOST_PIXELS / (across * up)))} "
+                         "or less, or fewer panels (--only)")
     figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white", **options)
     FigureCanvasAgg(figure)
     return figure

@@ -6,7 +6,7 @@ from axes import exaggeration, exaggeration_text
 from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, TOPS_HEIGHT, WIDTH, add_axes, below,
                   extension_text, footer, headline, name_distance, panel_size, set_ticks, write_around)
-from caption import caption, write_captions
+from caption import caption, origin, write_captions
 from journal import DEFAULT, look_text, save_print
 from panels import PANELS, panel_of
 from plot import Figure, InputError, Order, new_figure, save
@@ -56,14 +56,15 @@ def figures_of(frame: Frame) -> dict[str, list[str]]:
 
 def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
     """Every panel of every frame, and the overview of all: NAME-<extension>km and options; for print the
-    panels in one figure. Captions of all in caption.txt, where the order wants them."""
-    captions = {}
+    panels in one figure. Captions of all in caption.txt, and how they were made in origin.txt, where the order wants them."""
+    captions, origins = {}, {}
     for frame in frames:
         if order.width_mm:
             wanted = require_panels(frame, order.only)
             name, figure, said = save_print(frame, replace(order, only=wanted))
             save(figure, folder, name, order)
             captions[name] = caption(wanted or DEFAULT, said, frame, order)
+            origins[name] = origin(wanted or DEFAULT, frame, order)
             continue
         figures = figures_of(frame)
         chosen = {name: figures[name] for name in require_panels(frame, order.only)} or figures
@@ -73,9 +74,10 @@ def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
             scales = [None if panel == "seismic" else f"({exaggeration_text(exaggeration(ax))})"
                       for panel, ax in zip(panels, figure.axes[::2])]   # beside each its colour bar
             save(figure, folder, name, order)
-            captions[name] = caption(panels, scales, frame, order)
+            captions[name], origins[name] = caption(panels, scales, frame, order), origin(panels, frame, order)
     if order.caption:
         write_captions(captions, folder)
+        write_captions(origins, folder, "origin.txt")
 
 
 def options_text(kind: str, frame: Frame, order: Order) -> str:

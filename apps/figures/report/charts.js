@@ -6,6 +6,19 @@ function withoutCharts(host) {
   host.textContent = "Charts need Debian's package libjs-dygraphs where the report is made.";
 }
 
+/** Unit of a column of history.csv behind its label: " (km²)". */
+function unitIn(name) {
+  const unit = columnUnit(name).word;
+  return unit ? ` (${unit})` : "";
+}
+
+/** What numbers of a column are told in, by the largest: word, and how many of the column's unit that is. */
+function columnUnit(name) {
+  const largest = Math.max(...page.runs.flatMap(run => run.history[name] || []).filter(Number.isFinite).map(Math.abs), 0);
+  const [scale, word] = scaleOf(largest, page.data.measures[name]?.[1]);
+  return {scale, word};
+}
+
 /** Column of history.csv that ascends: extension, with stages of motion the travel. */
 function clockOf(run) { return "travel_m" in run.history ? "travel_m" : "extension_m"; }
 
@@ -29,14 +42,14 @@ class HistoryChart {
 
   /** Rows of the clock in the page's unit, the first measure of each run, the second of each run. */
   rows(names) {
-    const marks = new Map(), step = this.clockStep();
+    const marks = new Map(), step = this.clockStep(), scales = names.map(name => columnUnit(name).scale);
     this.runs.forEach((run, r) => {
       (run.history[clockOf(run)] || []).forEach((travel, k) => {
         const key = Math.round(travel / step);
         if (!marks.has(key)) marks.set(key, new Array(names.length * this.runs.length).fill(null));
         names.forEach((name, n) => {
           const value = (run.history[name] || [])[k];
-          marks.get(key)[n * this.runs.length + r] = Number.isFinite(value) ? value : null;
+          marks.get(key)[n * this.runs.length + r] = Number.isFinite(value) ? value / scales[n] : null;
         });
       });
     });
@@ -46,7 +59,7 @@ class HistoryChart {
   draw(names) {
     if (typeof Dygraph === "undefined") return withoutCharts(this.host);
     const of = r => this.runs.length > 1 ? `, ${"AB"[r]}` : "";
-    const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${wordsOf(name)}${page.data.measures[name]?.[1]?.length > 1 ? ` (${page.data.measures[name][1]})` : ""}${of(r)}${n && name === names[0] ? " " : ""}`));
+    const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${wordsOf(name)}${unitIn(name)}${of(r)}${n && name === names[0] ? " " : ""}`));
     const series = {}, unit = lengthUnit(), clock = `${clockWord(this.runs[0])} (${unit.name})`;
     labels.slice(this.runs.length).forEach(label => { series[label] = {axis: "y2"}; });
     this.chart?.destroy();

@@ -21,26 +21,32 @@ function discsCsv(run, k) {
     ...strainStreams, "behaviour", "bonds", "mean_stress_pa", "shear_stress_pa"].filter(name => run.has(name));
   const columns = names.map(name => run.values(k, name)), rows = [];
   run.codes[k].present.forEach((there, id) => {
-    if (there) rows.push([id, depthReference, ...columns.map(column => column[id])]);
+    if (there) rows.push([id, depthReference, ...columns.map((column, n) => sensible(column[id], names[n], run.head.mean_radius_m))]);
   });
   return csvOf(["id", "depth_reference", ...names], rows);
 }
 
+/** A number with the digits that mean something: lengths to a hundredth of what is known, others to four digits. */
+function sensible(value, name, radius) {
+  if (typeof value !== "number" || !Number.isFinite(value) || Number.isInteger(value)) return value;
+  return name.endsWith("_m") ? Number(value.toFixed(Math.max(2 - Math.round(Math.log10(lengthStep(radius))), 0))) : Number(value.toPrecision(4));
+}
+
 /** A row per point of lines. */
-function linesCsv(lines) {
+function linesCsv(lines, radius) {
   const names = [...new Set(lines.flatMap(Object.keys))].filter(name => !Array.isArray(lines[0][name]));
   return csvOf(["line", ...names, "depth_reference", "x_m", "depth_m"], lines.flatMap((line, index) =>
-    line.points.map(([x, depth]) => [index, ...names.map(name => line[name]), depthReference, x, depth])));
+    line.points.map(([x, depth]) => [index, ...names.map(name => sensible(line[name], name, radius)), depthReference, sensible(x, "x_m", radius), sensible(depth, "depth_m", radius)])));
 }
 
 // Pictures: a title and the moment above the section, axes around it, legend and provenance below.
 
-const paper = {margin: 46, above: 48, line: 17, font: 12};
+const paper = {margin: 46, above: 64, line: 17, font: 12};
 
 /** Texts around a picture of a section. */
 function wordsAround(section) {
   const run = section.run, {summary, scene, accuracy, seed} = run.head, {state_hash: hash, provenance} = summary || {};
-  return {title: run.head.description || scene, moment: `${momentText(run)}; ${page.runs.length > 1 ? labelOf(run) : scene}, ${accuracy}, seed ${seed}` +
+  return {title: titleWords(run.head.description || scene), moment: `${momentText(run)}; ${page.runs.length > 1 ? labelOf(run) : scene}, ${accuracy}, seed ${seed}` +
     (page.view.height > 1 ? `; heights × ${page.view.height}` : "; no vertical exaggeration"),
     foot: [page.data.program, provenance?.commit && `commit ${provenance.commit}`, hash && `state ${hash}`].filter(Boolean).join(", ")};
 }
@@ -56,6 +62,8 @@ function placedLegend(items, width, widthOf) {
     return place;
   });
 }
+
+function distanceWords() { return `distance from the breakaway (${lengthUnit().name})`; }
 
 /** Text of a legend entry beside its colours. */
 function legendText({label, from, to}) { return from === undefined ? label : `${label}: ${from} to ${to}`; }
@@ -89,6 +97,7 @@ async function pictureOf(section) {
   context.strokeRect(left, top, width, height);
   const {across, down} = section.marks(page.view);
   context.textAlign = "center";
+  context.fillText(distanceWords(), left + width / 2, top - 20 * ratio);
   for (const {at, text} of across) if (at >= 0) context.fillText(text, left + at, top - 5 * ratio);
   context.textAlign = "right";
   for (const {at, text} of down) context.fillText(text, left - 5 * ratio, top + at + 4 * ratio);
@@ -146,6 +155,7 @@ function svgAxes(section, view, height) {
   const {across, down} = section.marks(view), {ratio} = section;
   return across.filter(({at}) => at >= 0).map(({at, text}) => svgText(at / ratio, -5, text, 'text-anchor="middle"')).join("") +
     down.map(({at, text}) => svgText(-5, at / ratio + 4, text, 'text-anchor="end"')).join("") +
+    svgText(section.discCanvas.width / section.ratio / 2, -20, distanceWords(), 'text-anchor="middle"') +
     svgText(0, 0, `depth (${lengthUnit().name})`, `text-anchor="middle" transform="translate(-34,${height / 2}) rotate(-90)"`);
 }
 

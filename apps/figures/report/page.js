@@ -23,19 +23,35 @@ function momentOf(run) { return run === leader() ? page.t : run.nearest(shownTra
 /** A fifteenth of the thickest model, as in the figures: a kilometre of one of 15 km. */
 function marginUnit() { return Math.max(...page.runs.map(run => run.head.thickness_m)) / 15; }
 
-/** Room around the models, m: a footwall with stresses reaches far below and to the left of them. */
-function margins() {
-  const unit = marginUnit();
-  return {above: 2 * unit, below: (hasFootwall() ? 9 : 1) * unit, left: (hasFootwall() ? 20 : 1) * unit, right: unit};
+/** Edges of a run's section, m: of the model at its start and its largest, and of the discs at any moment. */
+function extentOf(run) {
+  const {length_m: length, extension_m: extension, thickness_m: depth} = run.head;
+  const extent = {left: 0, top: 0, right: length + extension, bottom: depth};
+  run.codes.forEach(({present}, k) => {
+    const [x, z, radius] = ["x_m", "depth_m", "radius_m"].map(name => run.values(k, name));
+    present.forEach((there, id) => {
+      if (!there) return;
+      extent.left = Math.min(extent.left, x[id] - radius[id]);
+      extent.right = Math.max(extent.right, x[id] + radius[id]);
+      extent.top = Math.min(extent.top, z[id] - radius[id]);
+      extent.bottom = Math.max(extent.bottom, z[id] + radius[id]);
+    });
+  });
+  return extent;
+}
+
+/** The edges of all sections with room around them: a footwall with stresses reaches far below and to the left. */
+function edges() {
+  const unit = marginUnit(), of = (name, best) => best(...page.runs.map(run => (run.extent ??= extentOf(run))[name]));
+  return {left: of("left", Math.min) - (hasFootwall() ? 20 : 1) * unit, top: of("top", Math.min) - 2 * unit,
+    right: of("right", Math.max) + unit, bottom: of("bottom", Math.max) + (hasFootwall() ? 9 : 1) * unit};
 }
 
 function layOut() {
-  const {above, below, left, right} = margins();
+  const {left, top, right, bottom} = edges();
   for (const section of page.sections) {
     const width = section.host.clientWidth, ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const {length_m: length, extension_m: extension, thickness_m: depth} = section.run.head;
-    const height = Math.round(Math.max(Math.min(width * page.view.height * (above + depth + below) / (left + length + extension + right),
-      window.innerHeight * 0.75), 140));
+    const height = Math.round(Math.max(Math.min(width * page.view.height * (bottom - top) / (right - left), window.innerHeight * 0.75), 140));
     section.host.style.aspectRatio = `${width} / ${height}`;
     section.host.style.setProperty("--ratio", width / height);
     section.resize(Math.round(width * ratio), Math.round(height * ratio));
@@ -45,11 +61,9 @@ function layOut() {
 function hasFootwall() { return page.shown.has("footwall") && "footwall" in page.layers; }
 
 function showWhole() {
-  const canvas = page.sections[0].discCanvas, {above, below, left, right} = margins();
-  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + left + right;
-  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + above + below;
-  const scale = Math.min(canvas.width / longest, canvas.height / deepest / page.view.height);
-  Object.assign(page.view, {left: -left - (canvas.width / scale - longest) / 2, top: -above, scale});
+  const canvas = page.sections[0].discCanvas, {left, top, right, bottom} = edges(), longest = right - left;
+  const scale = Math.min(canvas.width / longest, canvas.height / (bottom - top) / page.view.height);
+  Object.assign(page.view, {left: left - (canvas.width / scale - longest) / 2, top, scale});
 }
 
 let drawing = 0;
@@ -95,11 +109,15 @@ function hasUndefined(run) {
   return run.values(k, modes[page.mode].needs[0]).some((value, id) => present[id] && Number.isNaN(value));
 }
 
+/** Whether the seismic image is over the discs of every section. */
+function isCovered() { return page.shown.has("seismic") && page.runs.every(run => run.lines[momentOf(run)]?.seismic); }
+
 /** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
 function legendItems() {
   const {top, strata} = page.scale, {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette), items = [];
   const bar = colour => Array.from({length: 60}, (_, n) => cssColour(colour(n / 59)));
-  if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
+  if (isCovered()) { /* by the seismic image */ }
+  else if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
   else if (page.mode === "strata") {
     if (strata) items.push({label: `sediment laid down (${timeUnit().name}), ${strata} strata`, from: 0, to: digits(youngestTime(), 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
@@ -109,7 +127,7 @@ function legendItems() {
       items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
   } else items.push({label: modeLabel(page.mode, page.runs), from: 0, to: `${plain(top / (unit || 1))} or more`,
     colours: bar(share => table[Math.round(255 * share)])});
-  if (["window", "settled_window"].includes(page.mode) && page.runs.some(hasUndefined)) items.push(vocabulary.scale.undefined);
+  if (["window", "settled_window"].includes(page.mode) && !isCovered() && page.runs.some(hasUndefined)) items.push(vocabulary.scale.undefined);
   for (const name of ["faults", "horizons", "picks", "target", "predictions"])
     if (page.shown.has(name) && name in page.layers) items.push({label: page.layers[name].label, colour: page.layers[name].ink});
   for (const [name, layer] of Object.entries(page.layers))
@@ -151,7 +169,7 @@ async function addFootwallLegend() {
   const run = page.runs.find(isIn.footwall);
   const lines = run && page.shown.has("footwall") && await run.loadLines(momentOf(run));
   if (lines?.footwall)
-    $("legend").append(`; footwall: change of shear stress, white 0, dark ${plain(lines.footwall.end_mpa)} MPa or more`);
+    $("legend").append(`; footwall: change of shear stress, white 0, dark ${digits(lines.footwall.end_mpa, 2)} MPa or more`);
   else if (lines) $("legend").append("; the footwall's stress is there at the figures' moments and at the end");
 }
 
@@ -302,83 +320,6 @@ function onKey(event) {
   event.preventDefault();
 }
 
-/** Clicks, drags and wheel on one section. */
-function listenTo(section) {
-  const canvas = section.lineCanvas;
-  let from = null, moved = false;
-  const at = event => {
-    const box = canvas.getBoundingClientRect();
-    return [(event.clientX - box.left) * canvas.width / box.width, (event.clientY - box.top) * canvas.height / box.height];
-  };
-  canvas.addEventListener("pointerdown", event => {
-    from = at(event);
-    moved = false;
-    canvas.setPointerCapture(event.pointerId);
-  });
-  canvas.addEventListener("pointermove", event => {
-    if (!from) return readOut(section, ...at(event));
-    const [column, row] = at(event), {view} = page;
-    if (Math.hypot(column - from[0], row - from[1]) < 4 && !moved) return;
-    moved = true;
-    if ($("measure").checked) return measureLine(section, from, [column, row]);
-    view.left -= (column - from[0]) / view.scale;
-    view.top -= (row - from[1]) / view.scale / view.height;
-    from = [column, row];
-    draw().catch(trouble);
-  });
-  canvas.addEventListener("pointerup", async event => {
-    const place = from;
-    from = null;
-    if (moved || !place) return;
-    const run = section.run, k = momentOf(run);
-    const index = page.shown.has("faults") ? await section.faultAt(k, page.view, ...place, 6 * section.ratio) : -1;
-    const id = section.painter.ownerAt(...place);
-    pick(index >= 0 && !event.shiftKey ? {kind: "fault", run, index} : id !== nobody ? {kind: "disc", run, id} : null);
-  });
-  canvas.addEventListener("pointerleave", () => { section.readout.hidden = true; });
-  canvas.addEventListener("dblclick", whole);
-  canvas.addEventListener("wheel", event => {
-    event.preventDefault();
-    zoom(event.deltaY < 0 ? 1.25 : 0.8, ...at(event));
-  }, {passive: false});
-}
-
-/** Says beside the pointer where it is and what is there. */
-function readOut(section, column, row) {
-  const {run, readout} = section, k = momentOf(run), [x, depth] = section.toMetres(page.view, column, row);
-  const id = section.painter.ownerAt(column, row), mode = modes[page.mode], words = [`x ${placeText(x)}, ${placeText(depth)} deep`];
-  if (id !== nobody) {
-    const stratum = run.codes[k].stratum[id];
-    const from = !stratum && run.codes[k].start_depth_m ? `, from ${placeText(run.values(k, "start_depth_m")[id], 1)}` : "";
-    const layer = run.codes[k].layer && run.codes[k].layer[id];
-    words.push(stratum ? stratumName(stratum) : layer ? `${run.head.rock_layers[layer - 1]}${from}` : `pre-rift${from}`);
-    const isRead = mode.needs.every(name => run.codes[k][name]);
-    if (page.mode === "rock" && isRead) words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
-    else if (mode.end && isRead) {
-      const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];
-      words.push(`${modeLabel(page.mode, page.runs).replace(/ \(.*/, "")} ${Number.isNaN(value) ? "not defined" : digits(value / (mode.unit || 1), 2) +
-        (mode.unit ? " MPa" : page.mode === "displacement" ? " m" : "")}`);
-    }
-  }
-  readout.textContent = words.join("; ");
-  readout.hidden = false;
-  const place = column / section.ratio, width = section.host.clientWidth;
-  readout.style.left = place < width / 2 ? `${place + 14}px` : "auto";
-  readout.style.right = place < width / 2 ? "auto" : `${width - place + 14}px`;
-  readout.style.top = `${Math.min(row / section.ratio + 14, section.host.clientHeight - 30)}px`;
-}
-
-/** Length and dip of a line that is dragged. */
-async function measureLine(section, from, to) {
-  const [x0, z0] = section.toMetres(page.view, ...from), [x1, z1] = section.toMetres(page.view, ...to);
-  await section.draw(momentOf(section.run), page.view, page.shown, page.picked, null);
-  section.line(page.view, [[x0, z0], [x1, z1]], pickedInk, 2);
-  const dip = Math.atan2(Math.abs(z1 - z0), Math.abs(x1 - x0)) * 180 / Math.PI;
-  page.picked = {kind: "line", run: section.run, text: `Measured: ${metresText(Math.hypot(x1 - x0, z1 - z0))}, dip ` +
-    `${dip.toFixed(1)}°, ${metresText(Math.abs(x1 - x0))} across, ${metresText(Math.abs(z1 - z0))} down`};
-  describe();
-}
-
 // -- at the start
 
 function addOptions(select, entries, chosen) {
@@ -450,7 +391,6 @@ function drawTables() {
   $("differences_part").hidden = page.runs.length < 2;
   drawMeasures($("measures"), page.runs);
   drawMainMeasures($("main_measures"), page.runs);
-  $("errors_part").hidden = !drawErrors($("errors"), page.runs);
 }
 
 function addSaves(on) {
@@ -461,7 +401,7 @@ function addSaves(on) {
     await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));
     save(name("discs.csv"), discsCsv(run, shown()), "text/csv");
   });
-  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await page.runs[0].loadLines(shown()))[kind] || []), "text/csv");
+  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await page.runs[0].loadLines(shown()))[kind] || [], page.runs[0].head.mean_radius_m), "text/csv");
   on("save_faults", "click", lines("faults"));
   on("save_horizons", "click", lines("horizons"));
   on("save_history", "click", () => save(`${page.runs[0].head.scene}-history.csv`, page.runs[0].head.history, "text/csv"));
@@ -475,7 +415,7 @@ function addSaves(on) {
 }
 
 function addWords() {
-  const titles = page.runs.map(run => run.head.description || run.head.scene);
+  const titles = page.runs.map(run => titleWords(run.head.description || run.head.scene));
   document.title = `${page.runs[0].head.scene}: Listric`;
   const differ = differenceWords();
   $("title").textContent = [...new Set(titles)].join(" beside ") + (differ && new Set(titles).size < 2 ? `: ${differ}` : "");
@@ -501,7 +441,7 @@ async function start() {
   (page.data.lacks || []).forEach(say);
   page.runs = page.data.runs.map(head => new Run(head));
   if (page.runs.some(run => run.moments.length === 0)) throw new Error("there is no snapshot yet");
-  await Promise.all(page.runs.map(run => run.loadKnown()));
+  await Promise.all(page.runs.map(run => Promise.all([run.loadKnown(), run.load(["present", "x_m", "depth_m", "radius_m", "stratum", "rock"])])));
   page.layers = layersOf(page.runs);
   const view = readAddress();
   page.sections = page.runs.map(run => {
@@ -527,7 +467,6 @@ async function start() {
     try { await page.underlay.decode(); }
     catch { say("the browser cannot show the picture below the section"); page.data.underlay = page.underlay = null; }
   }
-  await Promise.all(page.runs.map(run => run.load(["present", "x_m", "depth_m", "radius_m", "stratum", "rock"])));
   addLayers();
   addControls();
   await draw();

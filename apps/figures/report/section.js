@@ -117,7 +117,7 @@ class Section {
     this.drawAxes(view);
     this.drawStrokes(view, this.upperStrokes(k, view, lines, shown, picked, other));
     this.lineCanvas.setAttribute("aria-label", `Section of ${this.run.head.scene} at ` +
-      `${wayText(this.run.moments[k]).replace(lengthUnit().name, "$& of extension")}, ${lines.faults.length} faults`);
+      `${placeText(this.run.moments[k].extension_m)} of extension, ${lines.faults.length} faults`);
   }
 
   /** What paints below the lines: pictures, fills, and bonds, which are too many for lines of a drawing. */

@@ -86,21 +86,37 @@ function drawMeasures(host, runs) {
 }
 
 function drawMeasureRows(table, names, runs, numbers) {
-  head(table, runs.length > 1 ? ["measure", "A", "B", "B − A"] : ["measure", "value"]);
+  const errors = runs.map(run => Object.fromEntries((run.head.summary?.known_errors || []).map(one => [one.measure, one])));
+  const radius = Math.max(...runs.map(run => run.head.mean_radius_m));
+  const rows = names.map(name => {
+    const own = name.replace("number of ", ""), parent = name.split(".")[0];
+    const [, unit] = page.data.measures[own] || page.data.measures[parent] || [];
+    return {name, unit, doc: page.data.definitions[own] || page.data.definitions[parent] || "",
+      told: numbers.map((values, r) => valueAndError(values[name], unit, radius, errors[r][name]))};
+  });
+  const haveErrors = rows.some(({told}) => told.some(([, error]) => error));
+  head(table, [...(runs.length > 1 ? ["measure", "A", "B", "B − A"] : ["measure", "value"]), ...(haveErrors ? ["by recorded runs"] : [])]);
   const body = table.appendChild(document.createElement("tbody"));
-  for (const name of names) {
-    const row = body.appendChild(document.createElement("tr")), parent = name.split(".")[0];
-    const [, unit] = page.data.measures[name] || page.data.measures[parent] || [];
-    const doc = page.data.definitions[name] || page.data.definitions[parent] || "";
-    const radius = Math.max(...runs.map(run => run.head.mean_radius_m));
+  for (const {name, unit, doc, told} of rows) {
+    const row = body.appendChild(document.createElement("tr"));
     row.dataset.key = name;
     cell(row, wordsOf(name), `${name} = ${numbers.map(values => plain(values[name])).join(" and ")}: ${doc}`);
-    for (const values of numbers) cell(row, valueText(values[name], unit, radius));
+    for (const [text] of told) cell(row, text);
     if (runs.length > 1) {
       const [a, b] = numbers.map(values => values[name]);
       cell(row, typeof a === "number" && typeof b === "number" ? valueText(b - a, unit, radius) : a === b ? "equal" : "");
     }
+    if (!haveErrors) continue;
+    const words = told.map(([, error], r) => error && (runs.length > 1 ? `${"AB"[r]}: ${error}` : `(${error})`)).filter(Boolean);
+    cell(row, words.join(", "), errorSources(errors[0][name]));
+    row.lastChild.className = "error";
   }
+}
+
+/** Where what is known of an error comes from. */
+function errorSources(known) {
+  return errorParts.filter(([name]) => typeof known?.[name] === "number")
+    .map(([name, what]) => `${what}: ${known[`${name}_against`]} (${known[`${name}_record`]})`).join("; ");
 }
 
 /** At most ten results, for print: those by which runs are told apart, and the cutoff. */
@@ -113,7 +129,7 @@ function drawMainMeasures(table, runs) {
 
 function mainNumbers({head: {summary}}) {
   const numbers = {};
-  for (const name of [...page.data.headline.map(([key]) => key), "cutoff_x_m", "cutoff_z_m"]) {
+  for (const name of [...page.data.headline, "cutoff_x_m", "cutoff_z_m"]) {
     const list = name.startsWith("number of ") ? summary?.[name.slice(10)] : undefined;
     const value = Array.isArray(list) ? list.length : summary?.[name];
     if (typeof value === "number") numbers[name] = value;
@@ -134,6 +150,8 @@ function drawQuality(host, runs) {
     says.textContent = `${runs.length > 1 ? `${labelOf(run)}. ` : ""}${words}`;
     const list = part.appendChild(document.createElement("div"));
     list.className = "checks";
+    list.style.setProperty("--all", checks.length);
+    list.style.setProperty("--half", Math.ceil(checks.length / 2));
     for (const check of checks) {
       const card = list.appendChild(document.createElement("div"));
       card.className = `check ${check.verdict}`;
@@ -144,21 +162,6 @@ function drawQuality(host, runs) {
       line("small", check.words);
     }
   });
-}
-
-/** Errors of the headline results of the first run; whether there are any. */
-function drawErrors(table, [run]) {
-  table.textContent = "";
-  const rows = run.head.errors || [];
-  if (rows.length === 0) return false;
-  head(table, ["result", "resolution", "speed", "between seeds, ±"]);
-  const body = table.appendChild(document.createElement("tbody"));
-  for (const [key, name, ...errors] of rows) {
-    const row = body.appendChild(document.createElement("tr"));
-    cell(row, name, page.data.definitions[key]);
-    for (const text of errors) cell(row, text.split(" (")[0], text); // the whole of it on hovering
-  }
-  return true;
 }
 
 /** Parameters of two runs that differ. */

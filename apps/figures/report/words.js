@@ -1,15 +1,17 @@
 // Names, units and digits for people.
 
-const unitSuffix = /_(m2|m|deg|pa|s|a|mm_per_a|j_per_m|n_per_m|diameters|fraction)$/;
-
-/** "cutoff_x_m" as "Cutoff, x"; names of the headline results are the program's. */
+/** A measure's label as the program declares it: "cutoff_x_m" as "Cutoff, x", a part of one as "Time: genesis". */
 function wordsOf(name) {
-  const known = page.data.headline.find(([key]) => key === name);
-  const plainName = name.replace(/^.*\./, "").replace(unitSuffix, "").replace(/_x$/, ", x").replace(/_z$/, ", depth")
-    .replaceAll("_", " ");
-  const text = known ? known[1] : plainName;
+  const [own, part] = name.replace("number of ", "").split("."), label = page.data.measures[own]?.[2] || own.replaceAll("_", " ");
+  const text = part ? `${label}: ${part.replaceAll("_", " ")}` : label;
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
+
+/** A declared unit as it is written: "m²". */
+function unitWord(unit) { return {1: "", index: "", m2: "m²", deg: "°", diameters: "discs", a: timeUnit().name}[unit] ?? (unit || ""); }
+
+/** A description without the source in brackets behind it. */
+function titleWords(text) { return text.replace(/ \[[^\]]*\]$/, ""); }
 
 /** A number with so many significant digits, without an exponent where that is short. */
 function digits(value, count) {
@@ -65,27 +67,51 @@ function valueOf(value, unit, radius) {
   if (typeof value === "boolean") return [value ? "yes" : "no", ""];
   if (typeof value !== "number") return [String(value), ""];
   if (!Number.isFinite(value)) return ["", ""];
+  const [scale, word] = scaleOf(value, unit);
   if (unit === "m") {
     const rounded = roundedMetres(value, radius), decimals = Math.max(3 - Math.round(Math.log10(lengthStep(radius))), 0);
-    return Math.abs(value) >= 1000 ? [(rounded / 1000).toFixed(decimals), "km"] : [rounded, "m"];
+    return word === "km" ? [(rounded / 1000).toFixed(decimals), word] : [rounded, word];
   }
-  if (unit === "m2") return Math.abs(value) >= 1e5 ? [digits(value / 1e6, 3), "km²"] : [digits(value, 3), "m²"];
-  if (unit === "deg") return [value.toFixed(1), "°"];
-  if (unit === "Pa") return Math.abs(value) >= 1e4 ? [digits(value / 1e6, 3), "MPa"] : [digits(value, 3), "Pa"];
-  if (unit === "mm/a") return [digits(value, 2), "mm/a"];
-  if (unit === "diameters") return [value.toFixed(1), "discs"];
-  if (Number.isInteger(value)) return [String(value), ["1", "index"].includes(unit) ? "" : unit || ""];
-  return [digits(value, 3), unit === "1" ? "" : unit || ""];
+  if (unit === "deg" || unit === "diameters") return [value.toFixed(1), word];
+  if (unit === "mm/a") return [digits(value, 2), word];
+  return [scale === 1 && Number.isInteger(value) ? String(value) : digits(value / scale, 3), word];
+}
+
+/** What a value of a unit is told in: how many of the unit that is, and its word. */
+function scaleOf(value, unit) {
+  const size = Math.abs(value);
+  if (unit === "m" && size >= 1000) return [1000, "km"];
+  if (unit === "m2" && size >= 1e5) return [1e6, "km²"];
+  if (unit === "Pa" && size >= 1e4) return [1e6, "MPa"];
+  return [unit === "a" ? timeUnit().years : 1, unitWord(unit)];
 }
 
 /** Value and unit as one text: "9.31 km", "38.1°". */
-function valueText(value, unit, radius) {
-  const [text, own] = valueOf(value, unit, radius);
-  return own === "°" ? text + own : `${text} ${own}`.trim();
+function valueText(value, unit, radius) { return withUnit(...valueOf(value, unit, radius)); }
+
+function withUnit(text, word) { return word === "°" ? text + word : `${text} ${word}`.trim(); }
+
+const errorParts = [["resolution", "finer grain", -1], ["speed", "slower wall", -1], ["spread", "other seeds", 0]];
+
+/** A value and what recorded runs tell of its error: ["0.83", "finer grain: +0.18"]. The error has two digits at most,
+ * and the value no more than those. */
+function valueAndError(value, unit, radius, known) {
+  const text = valueText(value, unit, radius), errors = errorParts.filter(([name]) => typeof known?.[name] === "number" && known[name] !== 0);
+  if (typeof value !== "number" || errors.length === 0) return [text, ""];
+  const [scale, word] = scaleOf(value, unit), usual = (valueOf(value, unit, radius)[0].split(".")[1] || "").length;
+  const largest = Math.max(...errors.map(([name]) => Math.abs(known[name]))) / scale;
+  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(largest)), 0), usual), least = 0.5 * 10 ** -decimals;
+  const words = errors.filter(([name]) => Math.abs(known[name]) / scale >= least).map(([name, what, sign]) => {
+    const size = (Math.abs(known[name]) / scale).toFixed(decimals);
+    return `${what}: ${sign === 0 ? "±" : sign * known[name] > 0 ? "+" : "−"}${size}`;
+  });
+  return words.length ? [withUnit((value / scale).toFixed(decimals), word), words.join("; ")] : [text, ""];
 }
 
 /** "detachment.friction" as "friction". */
-function keyWords(path) { return path.replace(/^.*\./, "").replace(unitSuffix, "").replaceAll("_", " "); }
+function keyWords(path) {
+  return path.replace(/^.*\./, "").replace(/_(m2|m|deg|pa|s|a|m_per_s|m_per_a)$/, "").replaceAll("_", " ");
+}
 
 /** Letter and what is particular of one of two runs: "A: lis1, friction 0.1". */
 function labelOf(run) {

@@ -76,12 +76,13 @@ const Effect& effect() {
         .lacks = {{"sideways thrust of the water on scarp and head block",
                    "not measured; 0.4e12 N/m on a bare scarp of 9 km"}},
         .measures =
-            {{coupling::basin_water_name, "N/m",
+            {{coupling::basin_water_name, "N/m", "weight of the basin's water",
               "weight of the water on the detachment per metre of strike beyond that at the "
               "start, with that in the sediment's pores; negative where flooded ground has "
               "risen"},
-             {coupling::pore_water_name, "N/m", "weight of the water in the sediment's pores"},
-             {coupling::flank_water_name, "N/m",
+             {coupling::pore_water_name, "N/m", "weight of the water in pores",
+              "weight of the water in the sediment's pores"},
+             {coupling::flank_water_name, "N/m", "weight of the water on the flank",
               "weight of the water where the footwall left of the breakaway has sunk below "
               "its level; negative where flooded ground has risen"}},
         .layers = {{"water", LayerKind::band, "water", "#c6dcef", water_band}},

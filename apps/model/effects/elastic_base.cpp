@@ -303,12 +303,14 @@ double memory(const Scene& scene) {
 std::vector<Measure<Observation>> of_nodes() {
     using V = std::optional<double>;
     return {
-        {footwall_uplift, "m", "vertical displacement of the breakaway, positive up",
+        {footwall_uplift, "m", "uplift of the flank",
+         "vertical displacement of the breakaway, positive up",
          [](const Observation& now) -> V { return base_node_columns(now.state).uy[0]; }},
-        {breakaway_shift, "m",
+        {breakaway_shift, "m", "shift of the breakaway",
          "horizontal displacement of the breakaway, positive toward the hanging wall",
          [](const Observation& now) -> V { return base_node_columns(now.state).ux[0]; }},
-        {base_deflection, "m", "largest vertical displacement of the detachment, up or down",
+        {base_deflection, "m", "largest deflection of the detachment",
+         "largest vertical displacement of the detachment, up or down",
          [](const Observation& now) -> V {
              const auto size = [](double u) { return std::abs(u); };
              return size(std::ranges::max(base_node_columns(now.state).uy, {}, size));
@@ -322,52 +324,52 @@ std::vector<Measure<Observation>> measures() {
     std::vector<Measure<Observation>> all = of_nodes();
     std::ranges::move(
         std::vector<Measure<Observation>>{
-            {interface_force_error, "1",
+            {interface_force_error, "1", "error of forces on the base",
              "forces on the nodes against those on the discs: sum, over the sum of magnitudes. "
              "Round-off; largest of the windows",
              nullptr, largest},
-            {interface_moment_error, "1",
+            {interface_moment_error, "1", "error of moments on the base",
              "forces on the nodes against those on the discs: moment about the breakaway in the "
              "deformed wall, over the sum of magnitudes. Round-off; largest of the windows",
              nullptr, largest},
-            {interface_work_error, "1",
+            {interface_work_error, "1", "error of work on the base",
              "forces on the nodes against those on the discs: power, over the sum of magnitudes. "
              "Round-off; largest of the windows",
              nullptr, largest},
-            {base_reaction_error, "1",
+            {base_reaction_error, "1", "base's reaction over the discs' weight, less 1",
              "base reaction over the discs' weight, less 1: mean over the run (in `history.csv`: "
              "over the window). Inertia and damping carry the rest",
              nullptr, mean},
-            {net_wall_load, "N/m",
+            {net_wall_load, "N/m", "load taken off the footwall",
              "vertical load taken off the footwall, mean over the last window"},
-            {weight_change, "N/m",
+            {weight_change, "N/m", "weight removed less weight added",
              "removed minus added weight: rock that the right wall took along, less sediment, plus "
              "what was eroded (`history.csv`)",
              nullptr, none},
-            {net_wall_load_error, "1",
+            {net_wall_load_error, "1", "load taken off over weight removed, less 1",
              "`net_wall_load_n_per_m` over `weight_change_n_per_m`, less 1, in the last window",
              nullptr, OverTime::last, "below 0.02 from 5 km of extension on"},
-            {strong_rock_strain, "1",
+            {strong_rock_strain, "1", "largest strain of rock that bends",
              "largest principal strain, without sign, in rock that bends; above 2 % it would break",
              nullptr, largest, "below 0.02"},
-            {relaxed_rock_strain, "1",
+            {relaxed_rock_strain, "1", "largest strain of relaxed rock",
              "largest principal strain, without sign, in rock below the elastic thickness. Above "
              "10 % in either the run stops",
              nullptr, largest},
-            {rock_rotation, "deg",
+            {rock_rotation, "deg", "largest rotation of footwall rock",
              "largest rotation of the footwall's rock. Linear elasticity overlooks a strain of "
              "half its square; above 11.5 degrees, 2 %, the run stops",
              nullptr, largest},
-            {beyond_byerlee, "m2",
+            {beyond_byerlee, "m2", "area beyond Byerlee's law",
              "area of bending rock whose stress, on lithostatic pressure, exceeds Byerlee's law: "
              "rock that is stronger in the model than in nature",
              nullptr, largest},
-            {base_elements_difference, "1",
+            {base_elements_difference, "1", "difference to larger elements",
              "difference between the detachment's displacements on a mesh with elements half as "
              "large and on the run's mesh, both under the mean forces of the last window, root "
              "mean square over root mean square",
              nullptr, OverTime::last, "0.001 to 0.007"},
-            {base_resolved_difference, "1",
+            {base_resolved_difference, "1", "difference to a finer mesh",
              "difference of the displacement on the finer mesh from the base's mean displacement "
              "in the last window, so that it includes the lag of the base behind its load",
              nullptr, OverTime::last, "below 0.01"},

@@ -89,9 +89,10 @@ std::optional<std::string> beyond_elasticity(const fem::Guard& guard, const std:
 }
 
 std::string moment_text(const Clock& clock, const Motion& motion) {
-    return motion.stages.empty() ? fmt::format("{:.0f} m of extension", clock.extension.m)
-                                 : fmt::format("{:.0f} m of extension after a way of {:.0f} m",
-                                               clock.extension.m, clock.travel.m);
+    return motion.stages.empty()
+               ? fmt::format("{:.0f} m of extension", clock.extension.m)
+               : fmt::format("{:.0f} m of net extension after {:.0f} m of wall motion",
+                             clock.extension.m, clock.travel.m);
 }
 
 class ElasticBaseDriver final : public BaseDriver {

@@ -184,7 +184,8 @@ std::optional<double> volume_error_of(const Observation& now) {
 }
 
 std::vector<Measure<Observation>> measures() {
-    return {{weak_fraction, "1", "share of discs weakened by fault detection",
+    return {{weak_fraction, "1", "weakened share of discs",
+             "share of discs weakened by fault detection",
              [](const Observation& now) -> std::optional<double> {
                  const auto material = dem::disc_columns(now.state).material;
                  const auto weak = std::ranges::count_if(material, [&](std::uint8_t m) {
@@ -192,7 +193,7 @@ std::vector<Measure<Observation>> measures() {
                  });
                  return static_cast<double>(weak) / static_cast<double>(material.size());
              }},
-            {volume_error_fraction, "1",
+            {volume_error_fraction, "1", "error of volume",
              "power-cell area of the weakened discs less their area before weakening, over the "
              "hanging wall's area; ends where there is more sediment than rock",
              volume_error_of, OverTime::last, "below 0.001"}};

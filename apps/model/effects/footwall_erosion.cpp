@@ -82,9 +82,9 @@ const Effect& effect() {
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = {"erosion of the footwall", "+68 to +85 %"},
-        .measures = {{coupling::footwall_eroded_name, "m2",
+        .measures = {{coupling::footwall_eroded_name, "m2", "rock eroded from the footwall",
                       "area of rock eroded from the footwall left of the breakaway"},
-                     {coupling::footwall_deposited_name, "m2",
+                     {coupling::footwall_deposited_name, "m2", "sediment on the footwall",
                       "area of sediment on the footwall left of the breakaway"}},
     };
     return effect;

@@ -100,7 +100,7 @@ const Effect& effect() {
         .absence = {"thinning of the lower crust",
                     "-37 % at Te 5 km, -47 % at 10 km, -102 % at 20 km (20 km of crust)"},
         .measures =
-            {{coupling::lower_crust_thinning_name, "m",
+            {{coupling::lower_crust_thinning_name, "m", "thinning of the lower crust",
               "h e / (b + e) of the lower crust's thickness h and width b, and the extension e at "
               "the load's last step"}},
     };

@@ -150,14 +150,15 @@ std::optional<double> mean_of_layers(const Observation& now) {
 }
 
 constexpr Measure<dem::LayerStress> of_layer[] = {
-    {"depth_m", "m", "depth of the layer's middle below the surface",
+    {"depth_m", "m", "depth", "depth of the layer's middle below the surface",
      taken<&dem::LayerStress::depth>},
-    {"ratio", "1", "vertical contact stress over the weight above",
+    {"ratio", "1", "stress over weight", "vertical contact stress over the weight above",
      taken<&dem::LayerStress::ratio>},
-    {"after_event_ratio", "1",
+    {"after_event_ratio", "1", "stress over weight after compaction",
      "the ratio in the first 0.5 m of extension after sediment has compacted",
      taken<&dem::LayerStress::after_event_ratio>},
-    {"damping_share", "1", "vertical force of local damping on the discs above, over their weight",
+    {"damping_share", "1", "weight held by damping",
+     "vertical force of local damping on the discs above, over their weight",
      taken<&dem::LayerStress::damping_share>},
 };
 
@@ -176,21 +177,23 @@ std::optional<std::vector<NamedNumbers>> stress_profile(const Observation& now) 
 }
 
 std::vector<Measure<Observation>> measures() {
-    return {{"deposited_fraction", "1", "mass that sedimentation deposited, over the initial mass",
+    return {{"deposited_fraction", "1", "sediment laid down over rock at the start",
+             "mass that sedimentation deposited, over the initial mass",
              [](const Observation& now) -> std::optional<double> {
                  return now.state.ledger.deposited / now.state.ledger.initial;
              }},
-            {"eroded_fraction", "1", "mass that sedimentation eroded, over the initial mass",
+            {"eroded_fraction", "1", "rock and sediment eroded over rock at the start",
+             "mass that sedimentation eroded, over the initial mass",
              [](const Observation& now) -> std::optional<double> {
                  return now.state.ledger.removed / now.state.ledger.initial;
              }},
-            {sediment_stress_ratio, "1",
+            {sediment_stress_ratio, "1", "stress in the sediment over the weight above",
              "vertical contact stress in the sediment over the weight above, time mean of the last "
              "window: mean over the layers of `sediment_stress_profile`. 1: sediment carries its "
              "weight",
              mean_of_layers<&dem::LayerStress::ratio>, OverTime::last,
              "0.96 to 1.12 in lis1 at standard"},
-            {"sediment_damping_share", "1",
+            {"sediment_damping_share", "1", "sediment's weight held by damping",
              "vertical force of local damping on the sediment over its weight, time mean of the "
              "last window: mean over the layers of `sediment_stress_profile`. Above 0: damping "
              "holds it up",
@@ -201,6 +204,7 @@ std::vector<MeasuredObjects> objects() {
     MeasuredObjects profile{
         "sediment_stress_profile",
         "",
+        "stress in the sediment over the weight above, by depth",
         "vertical contact stress over the weight above, in layers 1 to 7 km below the surface",
         {},
         stress_profile};

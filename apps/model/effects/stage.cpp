@@ -173,69 +173,70 @@ std::string explain(const Scene& scene, EffectList) {
 
 std::vector<Measure<Observation>> measures_of_stages() {
     return {
-        {travel_column, "m",
+        {travel_column, "m", "way of the wall, back and forth",
          "way of base and right wall, back and forth, at extension.rate_m_per_a, and in pauses: "
          "the run's clock, by which files are named",
          [](const Observation& now) -> std::optional<double> { return now.state.clock.travel.m; }},
-        {"elapsed_a", "a", "travel over extension.rate_m_per_a",
+        {"elapsed_a", "a", "time since the start", "travel over extension.rate_m_per_a",
          [](const Observation& now) -> std::optional<double> {
              return now.state.clock.travel.m / now.scene.extension.rate;
          }},
-        {"stage", "1", "number of the [[stage]], counted from 0",
+        {"stage", "1", "stage", "number of the [[stage]], counted from 0",
          [](const Observation& now) -> std::optional<double> {
              return static_cast<double>(
                  now.parts.base.motion.stage(just_before(now.parts.base.motion, now.state.clock)));
          }},
-        {rest_strain_windows, "1",
+        {rest_strain_windows, "1", "strain in the pause, in windows of extension",
          "shear strain of rock in the newest pause (mean of discs) over that of the last window of "
          "500 m of travel before: what goes on while base and wall rest; in summary.json the "
          "greatest",
          rest_strain, OverTime::largest, "at most 0.15"},
-        {"rest_moved_discs", "1",
+        {"rest_moved_discs", "1", "discs moved in the pause",
          "discs of rock that the newest pause has moved by more than 100 m; in summary.json the "
          "greatest number",
          [](const Observation& now) { return in_pause(now, &Unrest::moved); }, OverTime::largest},
-        {"rest_farthest_m", "m",
+        {"rest_farthest_m", "m", "farthest motion in the pause",
          "greatest displacement of a disc of rock in the newest pause; in summary.json the "
          "greatest",
          [](const Observation& now) { return in_pause(now, &Unrest::farthest); },
          OverTime::largest},
-        {"uplift_area_m2", "m2",
+        {"uplift_area_m2", "m2", "area uplifted above the regional",
          "growth since the turn of the area above the regional, over the footwall, too, with what "
          "was eroded, its mass at the hanging wall's density (sediment counts by half): thickness "
          "times shortening, less what rock and pores take up",
          [](const Observation& now) { return or_nan(uplift_since(now, 0)); }},
-        {"uplift_balance", "1",
+        {"uplift_balance", "1", "area uplifted over shortening × thickness",
          "growth of the area above the regional since 1 km after the turn, over shortening since × "
          "thickness: the first kilometre closes what extension opened",
          [](const Observation& now) { return or_nan(uplift_balance(now)); }},
-        {"pop_up_m", "m",
+        {"pop_up_m", "m", "pop-up of the graben",
          "fall of the pre-rift top (means over 2.5 km) from the rollover's crest into the graben, "
          "at "
          "the turn less now: above 0, the graben pops up",
          [](const Observation& now) { return or_nan(pop_up(now)); }},
-        {"reactivated_share", "1",
+        {"reactivated_share", "1", "shortening on former faults",
          "share of the shortening's shear strain in the tenth of the pre-rift area that extension "
          "had strained most",
          [](const Observation& now) {
              return or_nan(has_turned(now) ? reactivated_share(now.state) : std::nullopt);
          }},
-        {"null_deposited_at_m", "m",
+        {"null_deposited_at_m", "m", "null point: laid down at",
          "extension at which the stratum was laid down whose top, 0.2 to 1.5 km from the "
          "breakaway, "
          "is at the regional now: the null point; extension less shortening where no pores close",
          [](const Observation& now) { return or_nan(null_deposited_at(now, false)); },
          OverTime::last, "", "null point: laid down at {} of extension"},
-        {"null_deposited_at_decompacted_m", "m",
+        {"null_deposited_at_decompacted_m", "m", "null point, decompacted: laid down at",
          "the null point with the thickness that strata below it have lost since, as their pores "
          "closed",
          [](const Observation& now) { return or_nan(null_deposited_at(now, true)); },
          OverTime::last, "", "decompacted: {}"},
-        {"inversion_ratio", "1",
+        {"inversion_ratio", "1", "inversion ratio",
          "shortening over extension from the null point: 1 less its extension over that at the "
          "turn",
          [](const Observation& now) { return or_nan(inversion_ratio(now, false)); }},
-        {"inversion_ratio_decompacted", "1", "the inversion ratio from the decompacted null point",
+        {"inversion_ratio_decompacted", "1", "inversion ratio, decompacted",
+         "the inversion ratio from the decompacted null point",
          [](const Observation& now) { return or_nan(inversion_ratio(now, true)); }},
     };
 }

@@ -1,8 +1,7 @@
 #include "apps/run/results.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/measures/profile.hpp"
-#include "apps/model/measure_names.hpp"
-#include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/run_view.hpp"
@@ -24,15 +23,11 @@ std::vector<std::string> results_of(RunView& run) {
     const std::vector<double> depth = smoothed_depth(profile);
     Results results{.measures = run.measured(),
                     .faults = run.faults(),
-                    .extension = run.extension(),
-                    .half_a_cycle = dem::Extension(run.simulation.tolerance().m),
-                    .has_stages = run.has_stages(),
-                    .base_moves = run.parts.base_moves};
+                    .quality = archive::quality_checks(parse_json(run.summary),
+                                                       {.base_moves = run.parts.base_moves,
+                                                        .mean_radius = run.state().mean_radius})};
     if (!depth.empty())
         results.basin_depth = std::ranges::max(depth);
-    for (const auto& [name, value] : measure_effects(run.now()).numbers)
-        if (name == effects::volume_error_fraction)
-            results.volume_error_fraction = value;
     return result_lines(results);
 }
 
