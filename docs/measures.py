@@ -5,11 +5,10 @@ and so an anchor; the rest of the page is by hand. Measures of validation have a
 (site_hooks.py).
 """
 
-import json
 import re
 import sys
 
-from parameters import ROOT, anchor, sentence
+from parameters import ROOT, anchor, read_declared, sentence
 
 PAGE = ROOT / "docs/measures.md"
 OF_VALIDATION = ("snapshots",)  # tables
@@ -59,7 +58,7 @@ def missing(text, entries):
 
 
 def read_dictionary():
-    return json.loads(DICTIONARY.read_text(encoding="utf-8"))
+    return read_declared(DICTIONARY)
 
 
 if __name__ == "__main__":

@@ -183,9 +183,16 @@ def heading_anchor(table):
     return anchor(TITLES.get(table, table).replace(" ", "-"))
 
 
+def read_declared(file):
+    """What the build writes beside the sources."""
+    if not file.exists():
+        raise SystemExit(f"{file}: is made by the build: ./listric scenes")
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
 def read_schema():
-    """That of a scene, and with it the table that plans of flexure have of their own."""
-    schema, plan = (json.loads(file.read_text(encoding="utf-8")) for file in (SCHEMA, PLAN))
+    """The schema of a scene, and with it the table that plans of flexure have of their own."""
+    schema, plan = read_declared(SCHEMA), read_declared(PLAN)
     table = dict(plan["properties"]["flexure"])
     table["description"] = "table of plans for `listric flexure`, " + table["description"]
     schema["properties"]["flexure"] = table
