@@ -1,5 +1,6 @@
 #include "apps/archive/headline.hpp"
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/quality.hpp"
 #include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
@@ -108,6 +109,23 @@ std::string picture_of(const fs::path& run, const fs::path& page) {
                                         link_to(newest, page));
 }
 
+/// "good", or what is doubtful, by the bounds of docs/trust.md.
+std::string quality_words(const JsonObject& summary) {
+    const std::vector<std::string> effects = texts_at(summary, "effects");
+    const bool base_moves = std::ranges::any_of(effects, [](const std::string& effect) {
+        return effect == "elastic_base" || effect == "base_motion";
+    });
+    std::string doubtful;
+    bool is_judged = false;
+    for (const archive::QualityCheck& check :
+         archive::quality_checks(summary, {.base_moves = base_moves})) {
+        is_judged |= check.verdict != archive::Verdict::note;
+        if (check.verdict == archive::Verdict::doubtful)
+            doubtful += (doubtful.empty() ? "" : ", ") + check.label;
+    }
+    return !is_judged ? "not judged" : doubtful.empty() ? "good" : "doubtful: " + doubtful;
+}
+
 std::string card_html(const Card& card, const fs::path& page) {
     const fs::path report = card.run / "report.html";
     std::string rows;
@@ -122,14 +140,14 @@ std::string card_html(const Card& card, const fs::path& page) {
         doubts += "<p>the report is older than the run: listric view makes it again";
     const std::string name = html(card.run.lexically_normal().string());
     return fmt::format(
-        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p><table>{}</table>{}"
+        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}; {}</p><table>{}</table>{}"
         "</article>\n",
         picture_of(card.run, page),
         fs::exists(report) ? fmt::format("<a href=\"{}\">{}</a>", link_to(report, page), name)
                            : name,
         html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
         html(whole_number_at(card.summary, "seed").value_or("unknown")), fmt::localtime(card.when),
-        rows, doubts);
+        html(quality_words(card.summary)), rows, doubts);
 }
 
 /// Writes a page of cards, whose pictures and links are files of the runs. Returns the file.
