@@ -62,12 +62,12 @@ bool is_memory_short() {
 } // namespace
 
 void prepare_hdf5(double bytes) {
-    H5dont_atexit(); // at its end it would visit all that a failed call has left
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are thrown, not printed
-    void* const room = std::malloc(static_cast<std::size_t>(bytes));
+    void* const room = std::malloc(static_cast<std::size_t>(bytes)); // before its first call
     if (!room)
         throw std::bad_alloc();
     std::free(room);
+    H5dont_atexit(); // at its end it would visit all that a failed call has left
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are thrown, not printed
 }
 
 Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {

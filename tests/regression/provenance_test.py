@@ -46,6 +46,7 @@ PLAN = 'scene = "small.toml"\nmeasures = ["discs"]\n[[vary]]\nparameter = "cycle
 CONDITIONS = ("other version", "other request", "other input", "older", "unfinished", "damaged")
 RUN = ("run", "small.toml", "--threads", "1", "--no-figures")
 SWEEP = ("sweep", "plan.toml", "--threads", "1", "-o")
+STUDY = ("study", "speed", "--scene", "small.toml", "--values", "8,4", "--seeds", "1", "--threads", "1", "-o")
 LABORATORY = ("laboratory", "uniaxial", "mat18-b", "--discs", "150", "--seeds", "1", "--threads", "1", "-o", "laboratory")
 
 
@@ -228,6 +229,7 @@ READERS = {
     "diff": by_call("diff", "RUN", "other"),
     "cite": by_call("cite", "RUN"),
     "sweep": batch(*SWEEP, "batch", folder="batch/runs/*"),
+    "study": batch(*STUDY, "batch", folder="batch/runs/*=8-*"),  # its runs are made as those of fit and validate
     "Python summary": in_python(lambda run: run.summary),
     "Python history": in_python(lambda run: run.history),
     "Python snapshots": in_python(lambda run: run.snapshots),
@@ -245,7 +247,7 @@ def said_by(results, reader, condition):
 
 
 # Readers that go on with what they find, which makes the summary anew.
-MAKERS = ("run --resume", "sweep")
+MAKERS = ("run --resume", "sweep", "study")
 MADE_AGAIN = re.compile(r"resuming at|is longer than the scene")  # of a run that begins
 
 

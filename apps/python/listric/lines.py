@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import RunError, UnknownName
-from .program import call
+from .errors import ProgramError, RunError, UnknownName
+from .program import call, find_program
 from .stand_in import at_words, stand_in
 from .table import read_csv
 
@@ -17,7 +17,7 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
     """
     path = snapshot.path.absolute()
     exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"   # of a call with options: another name
-    if is_newer(exported, path) and is_of_today(exported):
+    if is_newer(exported, path) and is_of_today(exported) and is_newer_than_program(exported):
         return read_lines(exported)
     with stand_in(snapshot) as (run, folder):
         call("export", "well" if kind == "burial" else kind, run, "--format", "csv", "--at", at_words(snapshot),
@@ -40,6 +40,17 @@ def is_newer(exported: Path, snapshot: Path) -> bool:
         return all(source.stat().st_mtime_ns < made for source in (*past, snapshot.parents[1] / "scene.toml"))
     except OSError:
         return False
+
+
+def is_newer_than_program(exported: Path) -> bool:
+    """Whether the program that would be asked may have written a file: another version's may differ. Without a program
+    there is only the file."""
+    try:
+        program = find_program()
+    except ProgramError:
+        return True
+    built = [program, *program.parent.glob("build/*/listric")]  # of the launcher
+    return max(one.stat().st_mtime_ns for one in built) < exported.stat().st_mtime_ns
 
 
 def is_of_today(exported: Path) -> bool:

@@ -204,6 +204,12 @@ def _require_scene(snapshot: Snapshot, scene: dict, newest: Snapshot) -> None:
         return  # damaged: reading it raises the error
     for name in sorted(scene.keys() | found.keys()):
         if found.get(name) != scene.get(name):
-            raise RunError(f"{snapshot.path}: another run has made it: {name} = {found.get(name)} "
-                           f"there, {scene.get(name)} in {newest.path.name}; take it away, or what "
+            raise RunError(f"{snapshot.path}: another run has made it: {name} = {_short(found.get(name))} "
+                           f"there, {_short(scene.get(name))} in {newest.path.name}; take it away, or what "
                            "it was copied over")
+
+
+def _short(value) -> str:
+    """A value in a message: lists may have thousands of points."""
+    text = str(value)
+    return text if len(text) <= 60 else text[:60] + "..."
