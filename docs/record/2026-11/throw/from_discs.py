@@ -5,7 +5,8 @@ Usage: from_discs.py RUN_DIR
 
 Needs `listric export faults RUN_DIR --format csv`, whose traces it takes, at whatever moments there are. A horizon on
 one side is a plane through the start heights of the discs within 3 diameters of it, 3 to 9 diameters beside the trace;
-its error, the scatter about the plane, half a diameter for the trace, and what discs out to 15 diameters change.
+its error, the scatter about the plane, half a diameter for the trace, and what discs out to 15 diameters change. It
+meets the trace within 6 diameters of one of its discs, and on this side of every other fault, or has no throw.
 """
 
 import sys
@@ -26,7 +27,16 @@ def plane(places, heights):
     return middle, coefficients, np.linalg.inv(rows.T @ rows) * variance
 
 
-def cut(line, places, heights, diameter):
+def parted(a, b, line):
+    """Whether a line passes between two points."""
+    def left(p, q, points):
+        return (q - p)[0] * (points - p)[:, 1] - (q - p)[1] * (points - p)[:, 0] > 0
+    sides = left(a, b, line)
+    ends = [left(p, q, np.array([a, b])) for p, q in zip(line[:-1], line[1:])]
+    return any(sides[k] != sides[k + 1] and one != other for k, (one, other) in enumerate(ends))
+
+
+def cut(line, others, places, heights, diameter):
     """Height where the plane's 0 meets a line, and its error; None if it does not or has too few discs."""
     if len(places) < 10:
         return None
@@ -39,8 +49,13 @@ def cut(line, places, heights, diameter):
         lever, across = np.r_[at - middle, 1], np.array([-step[1], step[0]]) / np.hypot(*step)
         scatter = np.sqrt(lever @ covariance @ lever) * step[1] / fall
         aside = (across[1] + coefficients[:2] @ across * step[1] / fall) * diameter / 2
-        found.append((np.hypot(*(at - middle)), at[1], np.hypot(scatter, aside)))
-    return min(found)[1:] if found else None
+        found.append((np.hypot(*(at - middle)), *at, np.hypot(scatter, aside)))
+    if not found:
+        return None
+    _, x, y, error = min(found)
+    if np.hypot(*(places - (x, y)).T).min() > 6 * diameter or any(parted(middle, np.array([x, y]), other) for other in others):
+        return None
+    return y, error
 
 
 def in_the_way(trace, other, places, diameter):
@@ -67,7 +82,7 @@ def throws(trace, others, places, starts, diameter):
             for side in (True, False):
                 chosen = (abs(heights) < 3 * diameter) & (abs(distance[near]) < reach * diameter) & (hanging == side)
                 counts[reach, side] = chosen.sum()
-                cuts[reach, side] = cut(line, places[near][chosen], heights[chosen], diameter)
+                cuts[reach, side] = cut(line, others, places[near][chosen], heights[chosen], diameter)
         if cuts[9, True] is None or cuts[9, False] is None:
             continue
         thrown, other = cuts[9, False][0] - cuts[9, True][0], diameter
