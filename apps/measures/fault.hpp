@@ -12,7 +12,7 @@ namespace listric::measures {
 /// A main fault dips by this at least, degrees.
 inline constexpr double least_main_dip = 30.0;
 
-/// What a fault is called at every moment: when it was traced for the first time, and which of the
+/// Name of a fault at every moment: when it was traced for the first time, and which of the
 /// lines of that moment it was, the longest being 0.
 struct TraceName {
     dem::Travel travel;

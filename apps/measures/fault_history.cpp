@@ -293,7 +293,7 @@ class FirstTraces {
 public:
     FirstTraces(Windows& windows, double unit) : windows_(windows), unit_(unit) {}
 
-    /// Of a line that is traced in the discs' present state, by its index there.
+    /// Name of a line that is traced in the present state of the discs, by its index there.
     /// @param end  windows before
     TraceName name_of(const std::vector<FaultTrace>& lines, std::size_t index,
                       const DiscPlaces& discs, const Cells& cells, std::size_t end) {
@@ -312,7 +312,7 @@ public:
     }
 
 private:
-    /// Of the line that is traced in window k.
+    /// Name of a line that is traced in window k.
     TraceName name_of(std::size_t k, std::size_t index) {
         const auto known = names_.find({k, index});
         if (known != names_.end())
