@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace listric::archive {
@@ -52,6 +53,10 @@ Json points_of(P p) {
 Json greatest_throw_of(P p) {
     const auto thrown = pre_rift_throw_of(p.fault().cutoffs);
     return thrown ? Json(*thrown) : Json();
+}
+
+std::string id_of(const TraceName& name) {
+    return fmt::format("{:.5g}-{}", name.travel.m, name.index);
 }
 
 constexpr std::size_t of_trace = 7;
@@ -126,6 +131,12 @@ constexpr FaultField fields[] = {
      "error of each of `throw_m`: scatter of the discs about the horizons, and what another way to "
      "extend these to the fault changes",
      throw_errors_of},
+    {"id", "",
+     "name of the fault that stays the same as it slips on: the travel (m) at which it was traced "
+     "for the first time, and its place by length among the lines of that moment, from 0. From "
+     "moment to moment discs of its footwall mark its place, as for `dip_at_birth_deg`; it may be "
+     "without a line for two windows. Lines of one `id` are parts of one fault",
+     [](P p) -> Json { return id_of(p.fault().name); }, 18, "id", true, true},
     {"name", "", "`fault N`", [](P p) -> Json { return fmt::format("fault {}", p.index); }, 1, "",
      false},
     {"fault", "1", "index in `faults`", [](P p) -> Json { return static_cast<double>(p.index); }, 2,

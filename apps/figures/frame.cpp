@@ -334,7 +334,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
             writer.array(data_name(layer) + "_arrows", layer.arrows->rows(now), 2);
     }
     nlohmann::json frame = frame_json(now, m);
-    frame["strain_end"] = scale_end(strain);
+    frame["strain_end"] = strain_scale_end(strain);
     frame["strain_remark"] = strain_remark(now, tectonic.has_value());
     frame["layers"] = declared_layers(now.scene);
     if (now.parts.base.motion.shortens(just_before(now.parts.base.motion, now.state.clock))) {

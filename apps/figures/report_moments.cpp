@@ -325,8 +325,9 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
             return stream(name, std::move(codes), before);
         });
     };
-    const auto add_scaled = [&](const std::string& name, std::vector<double> values) {
-        ends[name] = scale_end(values);
+    const auto add_scaled = [&](const std::string& name, std::vector<double> values,
+                                double (*end)(std::vector<double>) = scale_end) {
+        ends[name] = end(values);
         add(name, [values = std::move(values)](std::size_t i) { return values[i]; });
     };
     const auto by_disc = [&](auto value) {
@@ -354,7 +355,7 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     ends["displacement_m"] = scale_end(by_disc(
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
     for (auto& [name, values] : strains_of(now))
-        add_scaled(name, std::move(values));
+        add_scaled(name, std::move(values), strain_scale_end);
     if (state.discs.has("layer")) {
         const auto layer = state.discs.get<std::uint8_t>("layer");
         add("layer", [layer](std::size_t i) { return layer[i]; });

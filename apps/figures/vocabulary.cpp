@@ -42,6 +42,11 @@ double scale_end(std::vector<double> values) {
     return (step == steps.end() ? steps.back() : *step) * power;
 }
 
+double strain_scale_end(std::vector<double> values) {
+    return std::max(scale_end(std::move(values)),
+                    vocabulary().at("scale").at("least_strain").get<double>());
+}
+
 bool is_near(const fem::StressPatch& patch, double right) {
     constexpr double reach = 60e3; // m
     const fem::Vector at = patch.corner[0];

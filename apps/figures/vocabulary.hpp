@@ -22,6 +22,10 @@ nlohmann::ordered_json vocabulary();
 /// number. Values that are not finite do not count.
 double scale_end(std::vector<double> values);
 
+/// Where that of shear strain ends: not below twice what a fault has somewhere, so that grains
+/// which slide past each other in sediment that compacts have no fault's colours.
+double strain_scale_end(std::vector<double> values);
+
 /// Whether a patch of the footwall is within 60 km of the section, as deep and beside its ends, m.
 bool is_near(const fem::StressPatch& patch, double right);
 

@@ -12,9 +12,19 @@ namespace listric::measures {
 /// A main fault dips by this at least, degrees.
 inline constexpr double least_main_dip = 30.0;
 
+/// Name of a fault at every moment: when it was traced for the first time, and which of the
+/// lines of that moment it was, the longest being 0.
+struct TraceName {
+    dem::Travel travel;
+    int index = 0;
+
+    bool operator==(const TraceName&) const = default;
+};
+
 /// An active fault with its history (docs/measures.md defines the numbers).
 struct Fault {
     FaultTrace trace;
+    TraceName name;              ///< two lines of one name are parts of one fault
     double dip = 0.0;            ///< of the best straight line, degrees
     bool normal = true;          ///< sense of slip in the last window; false: reverse
     bool synthetic = true;       ///< dips the way the detachment does at the breakaway

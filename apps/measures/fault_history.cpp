@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,8 @@ namespace {
 /// Faults are looked for in units of a mean disc's diameter, or of this share of the hanging wall's
 /// thickness if that is more: a standard disc of 15 km.
 constexpr double coarsest_unit = 0.0124;
+
+constexpr std::size_t fewest_points = 8; ///< of a trace that is followed back
 
 /// Without std::hypot, which half of the time went into.
 bool are_within(Point a, Point b, double reach) { return dot(a - b, a - b) < reach * reach; }
@@ -41,9 +44,8 @@ struct FormerTrace {
     double turn = 0.0; ///< of the footwall as one block, rad, counter-clockwise, then to now
 };
 
-std::vector<Companions> footwall_of(const FaultTrace& trace, const State& state, const Cells& cells,
-                                    double diameter) {
-    const ConstDiscColumns d = disc_columns(state);
+std::vector<Companions> footwall_of(const FaultTrace& trace, const DiscPlaces& discs,
+                                    const Cells& cells, double diameter) {
     std::vector<Companions> footwall;
     for (std::size_t k = 0; k < trace.points.size(); ++k) {
         const Point p = trace.points[k];
@@ -51,9 +53,9 @@ std::vector<Companions> footwall_of(const FaultTrace& trace, const State& state,
         Companions c{p, {}, {}};
         cells.for_each_near(centre.x, centre.y, [&](std::int32_t row) {
             const auto i = static_cast<std::size_t>(row);
-            if (are_within({d.x[i], d.y[i]}, centre, 3.0 * diameter)) {
-                c.id.push_back(d.id[i]);
-                c.at.push_back({d.x[i], d.y[i]});
+            if (const Point at{discs.x[i], discs.y[i]}; are_within(at, centre, 3.0 * diameter)) {
+                c.id.push_back(discs.id[i]);
+                c.at.push_back(at);
             }
         });
         footwall.push_back(std::move(c));
@@ -255,14 +257,13 @@ Fault describe(const FaultTrace& trace, const State& now, const Chain& detachmen
 /// Follows a fault back in time with its footwall, to its birth and to the first line traced since.
 void trace_back(Fault& f, const std::vector<Companions>& footwall, Windows& windows,
                 const Chain& detachment, double diameter) {
-    constexpr std::size_t fewest = 8; // points
     const double slip = median(f.trace.slip);
     std::vector<std::pair<std::size_t, FormerTrace>> lived; // windows since birth, newest first
     std::size_t since_birth = 0;
     double active = 1.0, all = 1.0;
     for (std::size_t k = windows.size(); k-- > 0;) {
         FormerTrace former = move_back(footwall, windows.end(k));
-        if (former.points.size() < fewest)
+        if (former.points.size() < fewest_points)
             break;
         const bool slid = windows.was_active(former, k, slip < 0.0 ? -1.0 : 1.0);
         active += slid;
@@ -285,6 +286,46 @@ void trace_back(Fault& f, const std::vector<Companions>& footwall, Windows& wind
         }
     }
 }
+
+/// Which line a fault was traced as at first. From each line the way goes back to the one that it
+/// was a window before, as its footwall carries it, or two or three, where it was not traced.
+class FirstTraces {
+public:
+    FirstTraces(Windows& windows, double unit) : windows_(windows), unit_(unit) {}
+
+    /// Name of a line that is traced in the present state of the discs, by its index there.
+    /// @param end  windows before
+    TraceName name_of(const std::vector<FaultTrace>& lines, std::size_t index,
+                      const DiscPlaces& discs, const Cells& cells, std::size_t end) {
+        constexpr std::size_t most_missed = 2; // windows
+        const FaultTrace& line = lines[index];
+        const std::vector<Companions> footwall = footwall_of(line, discs, cells, unit_);
+        for (std::size_t k = end; k-- > 0 && k + most_missed + 1 >= end;) {
+            const FormerTrace former = move_back(footwall, windows_.end(k));
+            if (former.points.size() < fewest_points)
+                break;
+            const std::vector<FaultTrace>& older = windows_.traces(k);
+            if (const FaultTrace* t = traced_on(former, older, median(line.slip), unit_))
+                return name_of(k, static_cast<std::size_t>(t - older.data()));
+        }
+        return {discs.travel, static_cast<int>(index)};
+    }
+
+private:
+    /// Name of a line that is traced in window k.
+    TraceName name_of(std::size_t k, std::size_t index) {
+        const auto known = names_.find({k, index});
+        if (known != names_.end())
+            return known->second;
+        const DiscPlaces& discs = windows_.end(k);
+        const Cells cells(discs.x, discs.y, 3.0 * unit_);
+        return names_[{k, index}] = name_of(windows_.traces(k), index, discs, cells, k);
+    }
+
+    Windows& windows_;
+    double unit_;
+    std::map<std::pair<std::size_t, std::size_t>, TraceName> names_;
+};
 
 /// Index of the strongest normal fault of an attitude. One that reaches the lower half is the whole
 /// fault; one that does not may be its upper part.
@@ -329,22 +370,25 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
     const Chain detachment = standing_base(base, now).surfaces.front().chain;
     const double diameter = 2.0 * now.mean_radius;
     const double unit = std::max(diameter, coarsest_unit * setting.thickness);
-    ShearField field =
-        shear_field(older.back(), DiscPlaces(now), setting.youngest_sediment, setting.motion);
+    const DiscPlaces discs(now);
+    ShearField field = shear_field(older.back(), discs, setting.youngest_sediment, setting.motion);
     const double years = (now.clock.travel - older.back().travel).m / setting.extension_rate;
     coarsen(field, unit);
     const std::vector<FaultTrace> traces = trace_faults(field, detachment);
     if (!traces.empty()) {
         Windows windows(older, detachment, unit, setting);
-        const ConstDiscColumns d = disc_columns(now);
-        const Cells cells(d.x, d.y, 3.0 * unit);
+        const Cells cells(discs.x, discs.y, 3.0 * unit);
         report.faults.resize(traces.size());
         for_each_shared(traces.size(), [&](std::size_t k) {
             report.faults[k] = describe(traces[k], now, detachment, unit, years);
         });
-        for (Fault& fault : report.faults)
-            trace_back(fault, footwall_of(fault.trace, now, cells, unit), windows, detachment,
+        FirstTraces first(windows, unit);
+        for (std::size_t k = 0; k < traces.size(); ++k) {
+            Fault& fault = report.faults[k];
+            trace_back(fault, footwall_of(fault.trace, discs, cells, unit), windows, detachment,
                        unit);
+            fault.name = first.name_of(traces, k, discs, cells, windows.size());
+        }
         for_each_shared(traces.size(), [&](std::size_t k) {
             std::vector<Polyline> others;
             for (std::size_t m = 0; m < traces.size(); ++m)

@@ -19,11 +19,12 @@ namespace {
 // Units.
 constexpr double nearest_disc = 3.0;                 ///< disc beside a trace: drag reaches less far
 constexpr double near_reach = 9.0, far_reach = 15.0; ///< disc beside a trace
-constexpr double extension_up = 15.0;                ///< the trace, upward
-constexpr double rock_band = 3.0, top_band = 2.0;    ///< discs above and below a horizon that count
-constexpr double largest_throw_error = 2.0;          ///< of a throw
-constexpr double trace_error = 0.5;                  ///< of the place of a trace
-constexpr double thinnest_stratum = 3.0;             ///< diameters: a stratum that has a throw
+constexpr double straight_on = 6.0;               ///< from the next of a horizon's discs to its cut
+constexpr double extension_up = 15.0;             ///< the trace, upward
+constexpr double rock_band = 3.0, top_band = 2.0; ///< discs above and below a horizon that count
+constexpr double largest_throw_error = 2.0;       ///< of a throw
+constexpr double trace_error = 0.5;               ///< of the place of a trace
+constexpr double thinnest_stratum = 3.0;          ///< diameters: a stratum that has a throw
 
 constexpr std::size_t fewest_marks = 10; ///< discs of a plane
 
@@ -37,6 +38,13 @@ struct BesideFault {
 /// Discs beside a fault, above it and below it.
 struct FaultSides {
     std::vector<BesideFault> hanging, footwall;
+};
+
+/// The line in which horizons meet a fault.
+struct CutLine {
+    Polyline points;
+    std::span<const Polyline> others; ///< faults
+    double unit = 0.0;                ///< of lengths, m
 };
 
 /// The trace with its upper end drawn out straight.
@@ -63,17 +71,17 @@ bool is_beyond(const Polyline& other, Point p, const Polyline& trace, double dra
     return !from.beyond && (from.distance > 0.0) != (place.distance > 0.0);
 }
 
-FaultSides sides_of(const State& state, const ThrownFault& fault, const Polyline& line,
-                    double unit) {
+FaultSides sides_of(const State& state, const ThrownFault& fault, const CutLine& line) {
     const ConstDiscColumns d = disc_columns(state);
-    const bool right = falls_right(line);
+    const bool right = falls_right(line.points);
+    const double unit = line.unit;
     FaultSides sides;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const Point p{d.x[i], d.y[i]};
-        const PolylinePlace place = place_on(line, p);
+        const PolylinePlace place = place_on(line.points, p);
         const double distance = std::abs(place.distance);
         if (place.beyond || distance < nearest_disc * unit || distance > far_reach * unit ||
-            std::ranges::any_of(fault.others, [&](const Polyline& other) {
+            std::ranges::any_of(line.others, [&](const Polyline& other) {
                 return is_beyond(other, p, fault.trace, nearest_disc * unit);
             }))
             continue;
@@ -90,24 +98,39 @@ struct HorizonCut {
     double error = 0.0; ///< of its height, m
 };
 
+/// Whether a horizon reaches a place straight on from the discs that tell of it: it is next to one
+/// of them, and no other fault lies between. Further away or beyond a fault it is another block's.
+bool reaches(std::span<const Mark> discs, Point middle, Point place, const CutLine& line) {
+    return std::ranges::any_of(
+               discs,
+               [&](const Mark& disc) { return norm(disc.at - place) < straight_on * line.unit; }) &&
+           std::ranges::none_of(line.others, [&](const Polyline& other) {
+               return are_parted(middle, place, other);
+           });
+}
+
 /// Where a horizon, straight on, meets a line that falls; of several places the one next to the
 /// discs that tell of it.
-std::optional<HorizonCut> cut_of(const BedPlane& bed, const Polyline& line, double trace_error) {
+std::optional<HorizonCut> cut_of(const BedPlane& bed, std::span<const Mark> discs,
+                                 const CutLine& line) {
     std::optional<HorizonCut> cut;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-        const double up = bed.above(line[k]), down = bed.above(line[k + 1]);
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+        const Point a = line.points[k], step = line.points[k + 1] - a;
+        const double up = bed.above(a), down = bed.above(a + step);
         if (!(up > 0.0 && down <= 0.0))
             continue;
-        const Point step = line[k + 1] - line[k];
-        const Point at = line[k] + (up / (up - down)) * step;
+        const Point at = a + (up / (up - down)) * step;
         if (const double away = norm(at - bed.middle()); away < least) {
             least = away;
             const Point slope = bed.slope(), n = unit(Point{-step.y, step.x});
             const double aside = dot(slope, n) * step.y / (up - down) + n.y;
-            cut = {at, norm({bed.standard_error(at) * step.y / (up - down), aside * trace_error})};
+            cut = {at, norm({bed.standard_error(at) * step.y / (up - down),
+                             aside * trace_error * line.unit})};
         }
     }
+    if (cut && !reaches(discs, bed.middle(), cut->at, line))
+        cut.reset();
     return cut;
 }
 
@@ -157,14 +180,14 @@ std::vector<Mark> rock_marks(std::span<const BesideFault> side, const TargetLine
     return marks;
 }
 
-TwoCuts rock_cuts(std::span<const BesideFault> side, const Polyline& line,
-                  const TargetLine& horizon, double unit) {
+TwoCuts rock_cuts(std::span<const BesideFault> side, const CutLine& line,
+                  const TargetLine& horizon) {
     const auto cut = [&](std::span<const Mark> marks) {
         const auto bed = plane_of(marks);
-        return bed ? cut_of(*bed, line, trace_error * unit) : std::nullopt;
+        return bed ? cut_of(*bed, marks, line) : std::nullopt;
     };
-    const std::vector<Mark> near = rock_marks(side, horizon, unit, near_reach);
-    const std::vector<Mark> all = rock_marks(side, horizon, unit, far_reach);
+    const std::vector<Mark> near = rock_marks(side, horizon, line.unit, near_reach);
+    const std::vector<Mark> all = rock_marks(side, horizon, line.unit, far_reach);
     constexpr double fewest_more = 1.2; // where another fault is near, none lies further away
     const bool has_more =
         static_cast<double>(all.size()) > fewest_more * static_cast<double>(near.size());
@@ -212,13 +235,12 @@ std::optional<BedPlane> level_top(std::span<const BesideFault> side, int stratum
 
 /// Discs next to the top of a stratum. A plane through 1 above it and -1 below it is 0 in the
 /// middle of a band of discs; a band that is off by some distance comes to a third of it.
-std::optional<MarkMoments> marks_at_top(std::span<const BesideFault> side, int stratum,
-                                        double unit) {
+std::vector<Mark> marks_at_top(std::span<const BesideFault> side, int stratum, double unit) {
     auto bed = level_top(side, stratum);
     std::vector<Mark> marks;
     for (const double band : {4.0, 3.0, 2.5, 2.0, 2.0, 2.0, 2.0}) {
         if (!bed)
-            return std::nullopt;
+            return {};
         const double reach = band / 2.0 * top_band * unit * norm(bed->slope());
         marks.clear();
         for (const BesideFault& disc : side)
@@ -226,30 +248,36 @@ std::optional<MarkMoments> marks_at_top(std::span<const BesideFault> side, int s
                 marks.push_back({disc.at, disc.stratum <= stratum ? -1.0 : 1.0});
         bed = plane_of(marks);
     }
-    if (!bed)
-        return std::nullopt;
-    return MarkMoments(marks);
+    return bed ? marks : std::vector<Mark>();
 }
 
 /// By stratum: the cut of its top, with the tilt of the tops next to it and with its own.
-std::map<int, TwoCuts> top_cuts(std::span<const BesideFault> side, const Polyline& line,
-                                const std::map<int, Travel>& strata, double unit) {
-    std::vector<std::pair<int, MarkMoments>> tops;
+std::map<int, TwoCuts> top_cuts(std::span<const BesideFault> side, const CutLine& line,
+                                const std::map<int, Travel>& strata) {
+    struct Top {
+        int stratum = 0;
+        std::vector<Mark> marks;
+        MarkMoments moments;
+    };
+    std::vector<Top> tops;
     for (const auto& [stratum, laid_down_at] : strata)
-        if (auto marks = marks_at_top(side, stratum, unit))
-            tops.emplace_back(stratum, *marks);
+        if (auto marks = marks_at_top(side, stratum, line.unit); !marks.empty()) {
+            const MarkMoments moments(marks);
+            tops.push_back({stratum, std::move(marks), moments});
+        }
     std::map<int, TwoCuts> cuts;
     for (std::size_t k = 0; k < tops.size(); ++k) {
-        MarkMoments spread = tops[k].second;
+        const Top& top = tops[k];
+        MarkMoments spread = top.moments;
         if (k > 0)
-            spread.add_spread(tops[k - 1].second);
+            spread.add_spread(tops[k - 1].moments);
         if (k + 1 < tops.size())
-            spread.add_spread(tops[k + 1].second);
-        TwoCuts& both = cuts[tops[k].first];
-        if (const auto bed = BedPlane::through(tops[k].second, spread))
-            both.first = cut_of(*bed, line, trace_error * unit);
-        if (const auto bed = BedPlane::through(tops[k].second, tops[k].second))
-            both.second = cut_of(*bed, line, trace_error * unit);
+            spread.add_spread(tops[k + 1].moments);
+        TwoCuts& both = cuts[top.stratum];
+        if (const auto bed = BedPlane::through(top.moments, spread))
+            both.first = cut_of(*bed, top.marks, line);
+        if (const auto bed = BedPlane::through(top.moments, top.moments))
+            both.second = cut_of(*bed, top.marks, line);
     }
     return cuts;
 }
@@ -303,16 +331,17 @@ std::map<int, Cutoffs> fault_cutoffs(const State& state, const ThrownFault& faul
     const double diameter = 2.0 * state.mean_radius;
     const double unit = std::max(fault.unit, diameter);
     // Horizons that a fault cuts at a small angle would follow a trace's turns.
-    const Polyline line = extended_upward(even(fault.trace, unit), extension_up * unit);
-    const FaultSides sides = sides_of(state, fault, line, unit);
+    const CutLine line{extended_upward(even(fault.trace, unit), extension_up * unit), fault.others,
+                       unit};
+    const FaultSides sides = sides_of(state, fault, line);
     std::map<int, Cutoffs> cutoffs;
     for (const auto& [number, horizon] : rock_horizons(state, fault.layers))
-        if (const auto both = cutoffs_of(rock_cuts(sides.hanging, line, horizon, unit),
-                                         rock_cuts(sides.footwall, line, horizon, unit), unit))
+        if (const auto both = cutoffs_of(rock_cuts(sides.hanging, line, horizon),
+                                         rock_cuts(sides.footwall, line, horizon), unit))
             cutoffs[number] = *both;
     const std::map<int, Travel> strata = when_laid_down(state);
-    const std::map<int, TwoCuts> hanging = top_cuts(sides.hanging, line, strata, unit);
-    const std::map<int, TwoCuts> footwall = top_cuts(sides.footwall, line, strata, unit);
+    const std::map<int, TwoCuts> hanging = top_cuts(sides.hanging, line, strata);
+    const std::map<int, TwoCuts> footwall = top_cuts(sides.footwall, line, strata);
     for (const auto& [stratum, cuts] : hanging)
         if (const auto below = footwall.find(stratum); below != footwall.end())
             if (const auto both = cutoffs_of(cuts, below->second, unit))

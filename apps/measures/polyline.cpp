@@ -162,4 +162,14 @@ PolylinePlace place_on(const Polyline& points, Point p) {
     return best;
 }
 
+bool are_parted(Point a, Point b, const Polyline& by) {
+    for (std::size_t k = 0; k + 1 < by.size(); ++k) {
+        const Point from = by[k], edge = by[k + 1] - from, way = b - a;
+        if ((cross(way, from - a) > 0.0) != (cross(way, by[k + 1] - a) > 0.0) &&
+            (cross(edge, a - from) > 0.0) != (cross(edge, b - from) > 0.0))
+            return true;
+    }
+    return false;
+}
+
 } // namespace listric::measures

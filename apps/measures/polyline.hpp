@@ -44,4 +44,7 @@ struct PolylinePlace {
 };
 PolylinePlace place_on(const Polyline& points, dem::Point p);
 
+/// Whether a polyline passes between two points.
+bool are_parted(dem::Point a, dem::Point b, const Polyline& by);
+
 } // namespace listric::measures

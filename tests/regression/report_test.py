@@ -449,6 +449,20 @@ class Report(Browsed):
         self.assertAlmostEqual(growth[0]["error"], 1200 / 1100 * np.hypot(diameter / 1200, diameter / 1100))
         self.script("drawThrows($('throws'), {}, a[0], {'-1': 'pre-rift 1000 m'}, 3); return 0;", cutoffs)
         self.assertEqual(len(self.driver.find_elements("css selector", "#throws canvas")), 1)
+        # Thirteen horizons in 200 pixels, the first three at one depth: no word on another, on a point, or outside.
+        box = {"left": 56, "top": 8, "right": 486, "bottom": 204}
+        marks = [{"row": 40 + 12 * max(n - 2, 0), "from": 150 + 20 * n, "to": 200 + 20 * n, "width": 92} for n in range(13)]
+        words = self.script("return placeWords(a[0], a[1]);", marks, box)
+        self.assertGreaterEqual(len([w for w in words if w]), 12)
+        points = [{"left": m["from"], "right": m["to"], "top": m["row"] - 5, "bottom": m["row"] + 5} for m in marks]
+        for n, word in enumerate(words):
+            if not word:
+                continue
+            self.assertTrue(box["left"] <= word["left"] and word["right"] <= box["right"])
+            self.assertTrue(box["top"] <= word["top"] and word["bottom"] <= box["bottom"])
+            for other in points + [w for w in words[:n] if w]:
+                self.assertTrue(word["right"] <= other["left"] or other["right"] <= word["left"] or
+                                word["bottom"] <= other["top"] or other["bottom"] <= word["top"], (n, word, other))
         self.script("drawThrows($('throws'), {}, [], {}, 3); return 0;")
         self.assertIn("known to two discs", self.driver.find_element("id", "throws").text)
         self.script("drawExpansion($('expansion'), page.runs[0], {}, [], 3); return 0;")

@@ -318,8 +318,9 @@ struct Story {
     Setting setting;
     RigidBase base;
 
-    /// @param turn  of the footwall per window, degrees, counter-clockwise
-    Story(int windows, int birth, double turn) {
+    /// @param turn   of the footwall per window, degrees, counter-clockwise
+    /// @param rests  window in which it does not slide
+    Story(int windows, int birth, double turn, int rests = 0) {
         setting.extension_rate = 0.01;
         setting.youngest_sediment = Travel(2e3);
         base.surfaces = {{"detachment", {line({0.0, -1e5}, {3e5, -1e5})}, 0.0}};
@@ -334,7 +335,7 @@ struct Story {
             for (std::size_t i = 0; i < c.x.size(); ++i) {
                 const double s = up.y * (c.x[i] - pivot.x) - up.x * (c.y[i] - pivot.y);
                 const double slip =
-                    window >= birth
+                    window >= birth && window != rests
                         ? -250.0 * (0.5 - 0.5 * std::erf(s * fwhm / (3.0 * d * std::sqrt(2.0))))
                         : 0.0;
                 const double x = c.x[i] + slip * up.x - pivot.x;
@@ -384,6 +385,17 @@ TEST(FaultHistory, RotatedWithItsFootwall) {
     // The trace is at the end of the first window at the earliest: five windows of turning.
     EXPECT_NEAR(f.footwall_turn, 10.0, 1.0);
     EXPECT_NEAR(f.dip_at_birth, 62.0, 2.5);
+}
+
+// As it slips on, turns, and rests for a window, a fault keeps its name.
+TEST(FaultHistory, NameStays) {
+    for (int windows = 3; windows <= 8; ++windows) {
+        const FaultReport report = Story(windows, 3, 2.0, 6).report();
+        if (windows == 6)
+            continue; // no fault
+        ASSERT_EQ(report.faults.size(), 1u) << windows;
+        EXPECT_EQ(report.faults[0].name, (TraceName{Travel(1500.0), 0})) << windows;
+    }
 }
 
 TEST(FaultHistory, NothingBeforeTheFirstWindow) {

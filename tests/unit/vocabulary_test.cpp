@@ -28,6 +28,8 @@ TEST(Vocabulary, AScaleEndsAtAPlainNumberAboveNinetyNineOfAHundredValues) {
     values[17] = 2.2;
     EXPECT_DOUBLE_EQ(scale_end(values), 0.15);
     EXPECT_DOUBLE_EQ(scale_end(std::vector<double>(300, 0.0)), 0.01);
+    EXPECT_DOUBLE_EQ(strain_scale_end(values), 0.3); // not a fault's colours
+    EXPECT_DOUBLE_EQ(strain_scale_end({0.41}), 0.5);
 }
 
 TEST(Vocabulary, IsThatOfTheMeasures) {

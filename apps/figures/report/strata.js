@@ -75,8 +75,8 @@ class Axes {
     pen.setLineDash([]);
   }
 
-  /** A point with error bars along x, and a word beside it. */
-  point(x, y, error, colour, word) {
+  /** A point with error bars along x. Returns where it is, for words. */
+  point(x, y, error, colour) {
     const {pen} = this, [column, row] = [this.toX(x), this.toY(y)], [from, to] = [this.toX(x - error), this.toX(x + error)];
     this.rule(from, row, to, row, this.ink, 1.2);
     for (const end of [from, to]) this.rule(end, row - 4, end, row + 4, this.ink, 1.2);
@@ -86,9 +86,39 @@ class Axes {
     pen.fill();
     [pen.strokeStyle, pen.lineWidth] = [this.ink, 1.2];
     pen.stroke();
-    pen.fillStyle = this.ink;
-    pen.fillText(word, Math.min(to + 6, this.box.right - pen.measureText(word).width), row - 6);
+    return {row, from: Math.min(from, column - 5), to: Math.max(to, column + 5)};
   }
+
+  /** Words beside points, with a line to those that stand further away. */
+  words(marks) {
+    const {pen} = this;
+    pen.fillStyle = this.ink;
+    placeWords(marks.map(mark => ({...mark, width: pen.measureText(mark.word).width})), this.box).forEach((at, n) => {
+      if (!at) return;
+      const {from, to, row, word} = marks[n], middle = at.top + 0.5 * wordHeight, isRight = at.left > from;
+      if (Math.abs(middle - row) > 0.5 * wordHeight) this.rule(isRight ? to : from, row, isRight ? at.left - 2 : at.right + 2, middle, this.ink, 0.5);
+      pen.fillText(word, at.left, middle + 4);
+    });
+  }
+}
+
+const wordHeight = 13; // of a line of words in a chart, pixels
+
+/** Where words of a width stand beside marks: as near as there is room, to the right if possible; undefined: nowhere. */
+function placeWords(marks, box) {
+  const taken = marks.map(({from, to, row}) => ({left: from, right: to, top: row - 5, bottom: row + 5}));
+  const isFree = a => a.left >= box.left && a.right <= box.right && a.top >= box.top && a.bottom <= box.bottom &&
+    taken.every(b => a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top);
+  const words = [];
+  for (const n of marks.map((_, n) => n).sort((m, n) => marks[m].row - marks[n].row)) {
+    const {from, to, row, width} = marks[n], places = [];
+    for (let away = 0; away < box.bottom - box.top; away += 3)
+      for (const middle of away ? [row - away, row + away] : [row])
+        for (const left of [to + 6 + away / 2, from - 6 - away / 2 - width])
+          places.push({left, right: left + width, top: middle - 0.5 * wordHeight, bottom: middle + 0.5 * wordHeight});
+    if (words[n] = places.find(isFree)) taken.push(words[n]);
+  }
+  return words;
 }
 
 /** Ends of an axis around values with their errors, and around a number that it has to show. */
@@ -133,9 +163,8 @@ function drawThrows(host, fault, cutoffs, names, strata) {
     {label: `depth (${name})`, low: depths.high, high: depths.low});
   axes.rule(axes.toX(0), axes.box.top, axes.toX(0), axes.box.bottom, axes.ink, 1);
   const table = paletteOf("strata", "figures");
-  for (const p of points)
-    axes.point(p.throw, p.depth / metres, p.error, p.horizon > 0 ? cssColour(stratumColour(p.horizon, strata, table)) : vocabulary.pre_rift.colours[0],
-      horizonName(p.horizon, names));
+  axes.words(points.map(p => ({word: horizonName(p.horizon, names), ...axes.point(p.throw, p.depth / metres, p.error,
+    p.horizon > 0 ? cssColour(stratumColour(p.horizon, strata, table)) : vocabulary.pre_rift.colours[0])})));
 }
 
 function drawExpansion(host, run, fault, cutoffs, strata) {
@@ -146,7 +175,7 @@ function drawExpansion(host, run, fault, cutoffs, strata) {
     [p.index - p.error, p.index + p.error]), 0, 1)}, {label: "stratum", ...endsOf(points.map(p => p.stratum), 0.5, points[0].stratum)});
   axes.rule(axes.toX(1), axes.box.top, axes.toX(1), axes.box.bottom, axes.ink, 1, [4, 3]);
   const table = paletteOf("strata", "figures");
-  for (const p of points) axes.point(p.index, p.stratum, p.error, cssColour(stratumColour(p.stratum, strata, table)), "");
+  for (const p of points) axes.point(p.index, p.stratum, p.error, cssColour(stratumColour(p.stratum, strata, table)));
 }
 
 const fewestDiscs = 3; // of a cell that is told apart from those around it
