@@ -2,8 +2,8 @@
 
 // Runs of small scenes, in-process, in a folder of their own and without pictures.
 
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/run.hpp"

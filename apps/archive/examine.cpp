@@ -1,10 +1,10 @@
 #include "apps/archive/examine.hpp"
 
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/setting.hpp"
-#include "apps/archive/summary.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/setting.hpp"
+#include "apps/archive/folder/summary.hpp"
 #include "apps/measures/evolution.hpp"
-#include "apps/measures/fault_history.hpp"
+#include "apps/measures/faults/fault_history.hpp"
 #include "apps/model/model.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/archive/run_history.hpp"
-#include "apps/measures/fault.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/measures/faults/fault.hpp"
 #include "apps/measures/setting.hpp"
 #include "apps/support/named_numbers.hpp"
 #include "dem/base.hpp"

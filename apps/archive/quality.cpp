@@ -1,12 +1,12 @@
 #include "apps/archive/quality.hpp"
 
-#include "apps/archive/fault_fields.hpp"
-#include "apps/archive/summary.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
+#include "apps/archive/folder/summary.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
 #include "apps/model/measure_names.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

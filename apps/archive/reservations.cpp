@@ -1,12 +1,12 @@
 #include "apps/archive/reservations.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/provenance.hpp"
-#include "apps/archive/run_files.hpp"
-#include "apps/archive/summary.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/provenance.hpp"
+#include "apps/archive/folder/run_files.hpp"
+#include "apps/archive/folder/summary.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/log.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

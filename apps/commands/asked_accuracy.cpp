@@ -1,16 +1,16 @@
 #include "apps/commands/asked_accuracy.hpp"
 
-#include "apps/archive/dictionary.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/accuracy.hpp"
-#include "apps/studies/student.hpp"
+#include "apps/scene/parameters/accuracy.hpp"
+#include "apps/studies/sweep/student.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/number.hpp"
-#include "apps/support/shell.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/number.hpp"
+#include "apps/support/machine/shell.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

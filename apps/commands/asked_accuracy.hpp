@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/archive/known_errors.hpp"
-#include "apps/run/prediction.hpp"
+#include "apps/archive/folder/known_errors.hpp"
+#include "apps/run/forecast/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
 
 #include <CLI/CLI.hpp>

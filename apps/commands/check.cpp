@@ -1,14 +1,14 @@
-#include "apps/archive/rock_record.hpp"
+#include "apps/archive/tables/rock_record.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/oversize.hpp"
-#include "apps/scene/material_file.hpp"
+#include "apps/run/forecast/oversize.hpp"
+#include "apps/scene/parameters/material_file.hpp"
 #include "apps/studies/flexure_plan.hpp"
-#include "apps/studies/sweep_plan.hpp"
-#include "apps/studies/validation_plan.hpp"
-#include "apps/support/text.hpp"
+#include "apps/studies/sweep/sweep_plan.hpp"
+#include "apps/studies/validation/validation_plan.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

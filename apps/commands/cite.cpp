@@ -1,10 +1,10 @@
-#include "apps/archive/json_file.hpp"
+#include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/works.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/commands/help.hpp"
+#include "apps/commands/help/help.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
 

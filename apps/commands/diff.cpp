@@ -1,14 +1,14 @@
-#include "apps/archive/headline.hpp"
-#include "apps/archive/provenance.hpp"
+#include "apps/archive/tables/headline.hpp"
+#include "apps/archive/folder/provenance.hpp"
 #include "apps/archive/reservations.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/differences.hpp"
+#include "apps/scene/toml/differences.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,8 +3,8 @@
 #include "apps/model/effects.hpp"
 #include "apps/run/drawing_page.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "apps/commands/explain.hpp"
 
-#include "apps/archive/rock_record.hpp"
+#include "apps/archive/tables/rock_record.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
 

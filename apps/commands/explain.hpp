@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/run/prediction.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/run/forecast/prediction.hpp"
+#include "apps/scene/parameters/effect.hpp"
 
 #include <string>
 

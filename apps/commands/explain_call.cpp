@@ -4,8 +4,8 @@
 #include "apps/model/effects.hpp"
 #include "apps/studies/flexure.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <iostream>
 #include <memory>

@@ -1,5 +1,5 @@
 #include "apps/commands/command.hpp"
-#include "apps/figures/export_run.hpp"
+#include "apps/figures/sections/export_run.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

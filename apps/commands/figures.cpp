@@ -3,8 +3,8 @@
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/picture_order.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/number.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/support/words/number.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/studies/basin_fit.hpp"
+#include "apps/studies/fit/basin_fit.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,9 +1,9 @@
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/template.hpp"
+#include "apps/scene/toml/template.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // Options that several calls share.
 
 #include "apps/commands/command.hpp"
-#include "apps/scene/accuracy.hpp"
-#include "apps/support/cores.hpp"
+#include "apps/scene/parameters/accuracy.hpp"
+#include "apps/support/machine/cores.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/number.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/number.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

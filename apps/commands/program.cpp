@@ -2,12 +2,12 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/run/join_ranks.hpp"
+#include "apps/run/ranks/join_ranks.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/number.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/number.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
 #include "dem/cycle/cycle_choice.hpp"
 

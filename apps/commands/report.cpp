@@ -1,7 +1,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/report_run.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <iostream>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/studies/flexure_plan.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/support/stop.hpp"
+#include "apps/support/machine/stop.hpp"
 
 namespace listric {
 

@@ -1,13 +1,13 @@
 #include "apps/commands/start_ranks.hpp"
 
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/folder/run_folder.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/run/hints.hpp"
-#include "apps/run/rank_reports.hpp"
+#include "apps/run/forecast/hints.hpp"
+#include "apps/run/ranks/rank_reports.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/process.hpp"
-#include "apps/support/resources.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/process.hpp"
+#include "apps/support/machine/resources.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/studies/sweep.hpp"
+#include "apps/studies/sweep/sweep.hpp"
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"

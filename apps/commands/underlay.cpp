@@ -3,8 +3,8 @@
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/picture.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/picture.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 #include "apps/studies/plan_file.hpp"
-#include "apps/studies/validation.hpp"
+#include "apps/studies/validation/validation.hpp"
 #include "apps/support/error.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-#include "apps/archive/headline.hpp"
-#include "apps/archive/output_folder.hpp"
+#include "apps/archive/tables/headline.hpp"
+#include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/quality.hpp"
 #include "apps/archive/reservations.hpp"
 #include "apps/commands/command.hpp"
@@ -8,10 +8,10 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/process.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/machine/process.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

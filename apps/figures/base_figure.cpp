@@ -1,16 +1,16 @@
 #include "apps/figures/base_figure.hpp"
 
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/moment_names.hpp"
-#include "apps/support/npy.hpp"
-#include "apps/support/python.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/moment_names.hpp"
+#include "apps/support/files/npy.hpp"
+#include "apps/support/machine/python.hpp"
 #include "dem/contacts/power_cell.hpp"
 
 #include <fmt/format.h>

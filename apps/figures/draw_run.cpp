@@ -1,20 +1,20 @@
 #include "apps/figures/draw_run.hpp"
 
 #include "apps/archive/examine.hpp"
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/known_errors.hpp"
-#include "apps/archive/provenance.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/known_errors.hpp"
+#include "apps/archive/folder/provenance.hpp"
 #include "apps/archive/reservations.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/run_history.hpp"
-#include "apps/archive/setting.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/archive/folder/setting.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
-#include "apps/figures/seismic_section.hpp"
+#include "apps/figures/sections/seismic_section.hpp"
 #include "apps/figures/well_figure.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,11 +1,11 @@
 #include "apps/figures/figures.hpp"
 
-#include "apps/archive/provenance.hpp"
+#include "apps/archive/folder/provenance.hpp"
 #include "apps/figures/frame.hpp"
-#include "apps/figures/seismic_section.hpp"
-#include "apps/support/memory.hpp"
-#include "apps/support/npy.hpp"
-#include "apps/support/python.hpp"
+#include "apps/figures/sections/seismic_section.hpp"
+#include "apps/support/machine/memory.hpp"
+#include "apps/support/files/npy.hpp"
+#include "apps/support/machine/python.hpp"
 
 #include <fmt/format.h>
 

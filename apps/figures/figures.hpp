@@ -2,9 +2,9 @@
 
 #include "apps/figures/frame.hpp"
 #include "apps/figures/picture_order.hpp"
-#include "apps/measures/fault.hpp"
-#include "apps/scene/effect.hpp"
-#include "apps/support/file.hpp"
+#include "apps/measures/faults/fault.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/support/files/file.hpp"
 
 #include <filesystem>
 #include <future>

@@ -1,6 +1,6 @@
 #include "apps/figures/flexure_figure.hpp"
 
-#include "apps/support/python.hpp"
+#include "apps/support/machine/python.hpp"
 
 namespace listric {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/measures/fault.hpp"
-#include "apps/scene/effect.hpp"
-#include "apps/support/moment_names.hpp"
+#include "apps/measures/faults/fault.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/support/words/moment_names.hpp"
 
 #include <filesystem>
 #include <optional>

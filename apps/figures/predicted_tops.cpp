@@ -1,6 +1,6 @@
 #include "apps/figures/predicted_tops.hpp"
 
-#include "apps/measures/kinematics.hpp"
+#include "apps/measures/basin/kinematics.hpp"
 
 namespace listric {
 

@@ -2,7 +2,7 @@
 
 #include "apps/measures/measures.hpp"
 #include "apps/measures/polyline.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/scene/parameters/effect.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/measures/fault.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/measures/faults/fault.hpp"
+#include "apps/scene/parameters/effect.hpp"
 #include "fem/footwall.hpp"
 
 #include <cstddef>

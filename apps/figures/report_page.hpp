@@ -2,7 +2,7 @@
 
 #include "apps/figures/frame.hpp"
 #include "apps/figures/report_moments.hpp"
-#include "apps/scene/rock_line.hpp"
+#include "apps/scene/picks/rock_line.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <optional>

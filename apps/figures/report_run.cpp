@@ -2,17 +2,17 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/reservations.hpp"
-#include "apps/archive/rock_record.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/run_history.hpp"
-#include "apps/archive/setting.hpp"
-#include "apps/archive/summary.hpp"
+#include "apps/archive/tables/rock_record.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/archive/folder/setting.hpp"
+#include "apps/archive/folder/summary.hpp"
 #include "apps/figures/report_page.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/run_history.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/run_history.hpp"
 #include "apps/figures/frame.hpp"
 #include "apps/figures/report_moments.hpp"
 

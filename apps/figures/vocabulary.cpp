@@ -1,8 +1,8 @@
 #include "apps/figures/vocabulary.hpp"
 
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/resources.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/resources.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "apps/figures/well_figure.hpp"
 
-#include "apps/scene/effect.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/json_text.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/moment_names.hpp"
-#include "apps/support/option_names.hpp"
-#include "apps/support/python.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/files/json_text.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/moment_names.hpp"
+#include "apps/support/words/option_names.hpp"
+#include "apps/support/machine/python.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 

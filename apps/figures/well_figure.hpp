@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/folder/run_folder.hpp"
 #include "apps/figures/picture_order.hpp"
 
 #include <filesystem>

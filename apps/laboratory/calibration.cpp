@@ -1,13 +1,13 @@
 #include "apps/laboratory/calibration.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/output_folder.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/output_folder.hpp"
 #include "apps/laboratory/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/laboratory/own_request.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

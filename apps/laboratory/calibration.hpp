@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/laboratory/calibration_targets.hpp"
-#include "apps/support/stop.hpp"
+#include "apps/support/machine/stop.hpp"
 
 #include <cstdint>
 #include <filesystem>

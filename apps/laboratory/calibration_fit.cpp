@@ -1,9 +1,9 @@
 #include "apps/laboratory/calibration_fit.hpp"
 
-#include "apps/archive/json_file.hpp"
+#include "apps/archive/folder/json_file.hpp"
 #include "apps/laboratory/gauss_newton.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/version.hpp"
 #include "fem/byerlee.hpp"

@@ -2,7 +2,7 @@
 
 #include "apps/laboratory/calibration_targets.hpp"
 #include "apps/laboratory/tests.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <nlohmann/json.hpp>
 

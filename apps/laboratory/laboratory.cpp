@@ -1,17 +1,17 @@
 #include "apps/laboratory/laboratory.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/output_folder.hpp"
-#include "apps/archive/run_files.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/output_folder.hpp"
+#include "apps/archive/folder/run_files.hpp"
 #include "apps/laboratory/own_request.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/python.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/machine/python.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

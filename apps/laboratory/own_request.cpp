@@ -1,10 +1,10 @@
 #include "apps/laboratory/own_request.hpp"
 
-#include "apps/archive/scene_lines.hpp"
+#include "apps/archive/folder/scene_lines.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

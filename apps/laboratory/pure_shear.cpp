@@ -1,12 +1,12 @@
 #include "apps/laboratory/pure_shear.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "apps/scene/toml.hpp"
+#include "apps/scene/toml/toml.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/units.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/measures/fault_trace.hpp"
+#include "apps/measures/faults/fault_trace.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/scene.hpp"
 #include "dem/state.hpp"

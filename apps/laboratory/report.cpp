@@ -1,7 +1,7 @@
 #include "apps/laboratory/report.hpp"
 
 #include "apps/laboratory/envelope.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 #include "dem/contacts/contacts.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/laboratory/sample.hpp"
-#include "apps/scene/material_file.hpp"
+#include "apps/scene/parameters/material_file.hpp"
 
 #include <optional>
 #include <vector>

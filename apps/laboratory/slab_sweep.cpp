@@ -1,11 +1,11 @@
 #include "apps/laboratory/slab_sweep.hpp"
 
-#include "apps/archive/fault_fields.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/measure_names.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 
 #include <fmt/format.h>
 

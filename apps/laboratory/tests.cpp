@@ -1,6 +1,6 @@
 #include "apps/laboratory/tests.hpp"
 
-#include "apps/support/memory.hpp"
+#include "apps/support/machine/memory.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "apps/laboratory/compression.hpp"
 #include "apps/laboratory/sample.hpp"
 #include "apps/laboratory/shear_box.hpp"
-#include "apps/scene/material_file.hpp"
-#include "apps/support/stop.hpp"
+#include "apps/scene/parameters/material_file.hpp"
+#include "apps/support/machine/stop.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/measures/cohesion.hpp"
-#include "apps/measures/depocentres.hpp"
+#include "apps/measures/strata/cohesion.hpp"
+#include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/support/measure.hpp"
 

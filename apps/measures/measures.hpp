@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/measures/broken_rock.hpp"
-#include "apps/measures/cohesion.hpp"
-#include "apps/measures/depocentres.hpp"
+#include "apps/measures/faults/broken_rock.hpp"
+#include "apps/measures/strata/cohesion.hpp"
+#include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/setting.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"

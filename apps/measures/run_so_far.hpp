@@ -1,9 +1,9 @@
 #pragma once
 
-#include "apps/measures/depocentres.hpp"
-#include "apps/measures/profile.hpp"
+#include "apps/measures/basin/depocentres.hpp"
+#include "apps/measures/basin/profile.hpp"
 #include "apps/measures/setting.hpp"
-#include "apps/measures/shear_field.hpp"
+#include "apps/measures/faults/shear_field.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 

@@ -1,6 +1,6 @@
 #include "apps/model/bending_base.hpp"
 
-#include "apps/support/spelling.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/scene/parameters/effect.hpp"
 
 // The program's effects, in the order in which tables, names and events of the same stage come.
 // Each is described in effects/NAME.cpp.

@@ -1,7 +1,7 @@
 #include "apps/model/model.hpp"
 
 #include "apps/model/base_driver.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/effect.hpp"
+#include "apps/scene/parameters/effect.hpp"
 
 #include "coupling/footwall_loads.hpp"
 

@@ -1,12 +1,12 @@
 #include "apps/run/batch.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/output_folder.hpp"
-#include "apps/archive/provenance.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/output_folder.hpp"
+#include "apps/archive/folder/provenance.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
 #include "dem/cycle/cycle.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "apps/run/options.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #include "apps/run/driven_run.hpp"
 
-#include "apps/measures/main_faults.hpp"
+#include "apps/measures/faults/main_faults.hpp"
 #include "apps/run/build.hpp"
 #include "dem/threads/shared_loop.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/measures/fault.hpp"
+#include "apps/measures/faults/fault.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/named_numbers.hpp"
 #include "dem/state.hpp"

@@ -1,9 +1,9 @@
 #include "apps/run/exit_code.hpp"
 
 #include "apps/support/error.hpp"
-#include "apps/support/job_limits.hpp"
-#include "apps/support/memory.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/machine/job_limits.hpp"
+#include "apps/support/machine/memory.hpp"
+#include "apps/support/words/text.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "fem/footwall.hpp"
 

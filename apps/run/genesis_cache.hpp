@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/scene/effect.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/stop.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/machine/stop.hpp"
 #include "dem/state.hpp"
 
 #include <filesystem>

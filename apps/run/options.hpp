@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/archive/output_folder.hpp"
-#include "apps/support/stop.hpp"
+#include "apps/archive/folder/output_folder.hpp"
+#include "apps/support/machine/stop.hpp"
 #include "dem/cycle/cycle.hpp"
 
 #include <algorithm>

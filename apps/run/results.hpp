@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/archive/quality.hpp"
-#include "apps/measures/fault.hpp"
+#include "apps/measures/faults/fault.hpp"
 #include "apps/measures/measures.hpp"
 
 #include <optional>

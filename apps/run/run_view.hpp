@@ -1,18 +1,18 @@
 #pragma once
 
-#include "apps/archive/observed_misfit.hpp"
-#include "apps/archive/run_history.hpp"
-#include "apps/archive/snapshot.hpp"
-#include "apps/measures/fault.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
+#include "apps/measures/faults/fault.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/run/options.hpp"
 #include "apps/run/part.hpp"
-#include "apps/run/time_left.hpp"
-#include "apps/scene/effect.hpp"
-#include "apps/scene/rock_line.hpp"
-#include "apps/support/log.hpp"
-#include "apps/support/moment_names.hpp"
+#include "apps/run/forecast/time_left.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/picks/rock_line.hpp"
+#include "apps/support/words/log.hpp"
+#include "apps/support/words/moment_names.hpp"
 #include "dem/simulation.hpp"
 
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "apps/run/session.hpp"
 
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/folder/run_folder.hpp"
 #include "apps/run/build.hpp"
-#include "apps/run/hints.hpp"
-#include "apps/run/prediction.hpp"
+#include "apps/run/forecast/hints.hpp"
+#include "apps/run/forecast/prediction.hpp"
 
 #include <fmt/format.h>
 

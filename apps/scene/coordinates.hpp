@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/support/spelling.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <cmath>
 #include <string>

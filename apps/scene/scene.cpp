@@ -1,6 +1,6 @@
 #include "apps/scene/scene.hpp"
 
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/scene/observed.hpp"
-#include "apps/scene/picked_fault.hpp"
+#include "apps/scene/picks/observed.hpp"
+#include "apps/scene/picks/picked_fault.hpp"
 #include "dem/genesis/detachment.hpp"
 #include "dem/genesis/genesis.hpp"
 #include "dem/material.hpp"

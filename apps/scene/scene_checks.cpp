@@ -1,8 +1,8 @@
 #include "apps/scene/scene_checks.hpp"
 
-#include "apps/scene/tables.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/scene/toml/tables.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/scene/effect.hpp"
-#include "apps/scene/toml.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/toml/toml.hpp"
 
 #include <filesystem>
 #include <string>

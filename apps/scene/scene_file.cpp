@@ -1,11 +1,11 @@
 #include "apps/scene/scene_file.hpp"
 
-#include "apps/scene/file_names.hpp"
-#include "apps/scene/picks_check.hpp"
-#include "apps/scene/pieces.hpp"
+#include "apps/scene/toml/file_names.hpp"
+#include "apps/scene/picks/picks_check.hpp"
+#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/scene_checks.hpp"
-#include "apps/scene/tables.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/toml/tables.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

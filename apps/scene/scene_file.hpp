@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/scene/effect.hpp"
-#include "apps/scene/shelf.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/toml/shelf.hpp"
 #include "apps/support/error.hpp"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "apps/studies/bench.hpp"
 
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/json_text.hpp"
-#include "apps/support/memory.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/files/json_text.hpp"
+#include "apps/support/machine/memory.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"

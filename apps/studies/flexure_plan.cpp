@@ -2,9 +2,9 @@
 
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_checks.hpp"
-#include "apps/scene/schema_parts.hpp"
-#include "apps/scene/tables.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/toml/schema_parts.hpp"
+#include "apps/scene/toml/tables.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "apps/studies/plan_file.hpp"
 
-#include "apps/archive/dictionary.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/shelf.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/scene/toml/shelf.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

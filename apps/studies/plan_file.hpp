@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/toml.hpp"
+#include "apps/scene/toml/toml.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,11 +1,11 @@
 #include "apps/studies/study.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/output_folder.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/output_folder.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/python.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/python.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

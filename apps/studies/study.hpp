@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/archive/run_records.hpp"
+#include "apps/archive/folder/run_records.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/stop.hpp"
+#include "apps/support/machine/stop.hpp"
 
 #include <cstdint>
 #include <filesystem>

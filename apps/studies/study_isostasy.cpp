@@ -2,15 +2,15 @@
 
 #include "apps/studies/study.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/model/bending_base.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/studies/plan_file.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/python.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/python.hpp"
 #include "coupling/base_memory.hpp"
 #include "fem/plate.hpp"
 

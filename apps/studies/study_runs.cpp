@@ -2,16 +2,16 @@
 
 #include "apps/studies/study.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/known_errors.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/known_errors.hpp"
 #include "apps/measures/dictionary.hpp"
-#include "apps/measures/main_faults.hpp"
+#include "apps/measures/faults/main_faults.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/studies/plan_file.hpp"
-#include "apps/support/log.hpp"
+#include "apps/support/words/log.hpp"
 #include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>

@@ -4,6 +4,6 @@
 /// listric::archive.
 
 #include "apps/archive/examine.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/run_history.hpp"
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"

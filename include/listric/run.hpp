@@ -2,7 +2,7 @@
 
 /// Runs of scenes: load_scene() and Run, as `listric run` makes them. Link listric::run.
 
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/driven_run.hpp"
 

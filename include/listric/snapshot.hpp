@@ -3,4 +3,4 @@
 /// Snapshots of runs: state, memory of events, history. Link listric::snapshot, which needs neither
 /// TOML, JSON nor XML.
 
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"

@@ -23,17 +23,17 @@ class PlantedViolations(unittest.TestCase):
     def test_a_sub_room_belongs_to_its_room(self):
         self.assertEqual(
             self.found(included("apps/model/effects/compaction.cpp", '"apps/scene/scene.hpp"',
-                                '"apps/model/effect.hpp"', '"apps/archive/snapshot.hpp"')),
-            ["apps/model/effects/compaction.cpp: must not include apps/archive/snapshot.hpp"])
+                                '"apps/model/effect.hpp"', '"apps/archive/snapshot/snapshot.hpp"')),
+            ["apps/model/effects/compaction.cpp: must not include apps/archive/snapshot/snapshot.hpp"])
 
     def test_a_scene_in_measures(self):
         self.assertEqual(
-            self.found(included("apps/measures/fault.hpp", '"apps/support/statistics.hpp"',
+            self.found(included("apps/measures/faults/fault.hpp", '"apps/support/statistics.hpp"',
                                 '"dem/state.hpp"', "<vector>", '"apps/scene/scene.hpp"',
                                 '"fem/footwall.hpp"', "<fmt/format.h>")),
-            ["apps/measures/fault.hpp: must not include apps/scene/scene.hpp",
-             "apps/measures/fault.hpp: must not include fem/footwall.hpp",
-             "apps/measures/fault.hpp: must not include fmt/format.h"])
+            ["apps/measures/faults/fault.hpp: must not include apps/scene/scene.hpp",
+             "apps/measures/faults/fault.hpp: must not include fem/footwall.hpp",
+             "apps/measures/faults/fault.hpp: must not include fmt/format.h"])
 
     def test_a_file_in_no_room(self):
         self.assertEqual(self.found({"apps/main.cpp": "", "apps/helper.cpp": "",
@@ -92,13 +92,13 @@ class PlantedViolations(unittest.TestCase):
                                 "<petscksp.h>", '"dem/ranks/ranks.hpp"',
                                 '"dem/ranks/mpi/require.hpp"', '"apps/run/run.hpp"'),
                        included("dem/ranks/halo_exchange.cpp", "<mpi.h>", '"dem/ranks/ranks.hpp"'),
-                       included("apps/run/ranked_run.cpp", '"dem/ranks/mpi/mpi_ranks.hpp"'),
-                       included("apps/run/join_ranks.cpp", "<dlfcn.h>", "<mpi.h>")),
+                       included("apps/run/ranks/ranked_run.cpp", '"dem/ranks/mpi/mpi_ranks.hpp"'),
+                       included("apps/run/ranks/join_ranks.cpp", "<dlfcn.h>", "<mpi.h>")),
             ["dem/ranks/mpi/mpi_ranks.cpp: must not include petscksp.h",
              "dem/ranks/mpi/mpi_ranks.cpp: must not include apps/run/run.hpp",
              "dem/ranks/halo_exchange.cpp: must not include mpi.h",
-             "apps/run/ranked_run.cpp: must not include dem/ranks/mpi/mpi_ranks.hpp",
-             "apps/run/join_ranks.cpp: must not include mpi.h"])
+             "apps/run/ranks/ranked_run.cpp: must not include dem/ranks/mpi/mpi_ranks.hpp",
+             "apps/run/ranks/join_ranks.cpp: must not include mpi.h"])
 
     def test_a_floor_of_dem_that_looks_up(self):
         self.assertEqual(

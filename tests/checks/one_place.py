@@ -58,7 +58,7 @@ class Exempt(NamedTuple):
 
 
 EXCEPTIONS = (
-    Exempt("apps/scene/stages.cpp", "surface_work", "a stage switches deposition and erosion off"),
+    Exempt("apps/scene/parameters/stages.cpp", "surface_work", "a stage switches deposition and erosion off"),
     Exempt("apps/laboratory/pure_shear.cpp", "weakening_rate", "option --weakening-rates varies it"),
     Exempt("apps/laboratory/pure_shear.cpp", "healing_rate", "option --healing-rates varies it"),
 )

@@ -59,7 +59,7 @@ class PlantedViolations(unittest.TestCase):
     def test_what_drives_the_base_is_known_to_none(self):
         for path in ("apps/run/session.cpp", "apps/figures/base_figure.cpp", "apps/model/effects/basin_water.cpp",
                      "apps/studies/flexure.cpp", "apps/studies/study_runs.cpp", "apps/commands/explain.cpp",
-                     "apps/scene/schema.cpp"):
+                     "apps/scene/toml/schema.cpp"):
             for line in ('if (has_effect(scene, "elastic_base"))', 'fmt::format("elastic_base.modes={}", modes)',
                          '#include "apps/model/effects/elastic_base_parameters.hpp"'):
                 self.assertEqual(len(self.found(line, path, EFFECTS)), 1, path)

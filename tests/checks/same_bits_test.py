@@ -12,7 +12,7 @@ class SameBits(unittest.TestCase):
         self.assertEqual(self.found("int a;\ndouble b = std::hypot(x, y);\n"),
                          ["dem/base.cpp:2: hypot: use hypotenuse() of dem/hypotenuse.hpp"])
         for text in ("return hypot(x, y);", "::hypot (x, y)", "hypotf(x, y)", "std::hypot(x,\n y)"):
-            self.assertEqual(len(self.found(text, "apps/measures/blocks.cpp")), 1, text)
+            self.assertEqual(len(self.found(text, "apps/measures/paper/blocks.cpp")), 1, text)
 
     def test_other_words(self):
         for text in ("hypotenuse(x, y)", "// Without std::hypot(x, y)\n", "/* hypot(\n) */", "my_hypot(1, 2)"):

@@ -2,7 +2,7 @@
 // angle} on standard input, an answer for each on standard output.
 // tests/regression/draw_test.py compares the drawing page with them.
 
-#include "apps/measures/kinematics.hpp"
+#include "apps/measures/basin/kinematics.hpp"
 #include "dem/genesis/detachment.hpp"
 #include "dem/genesis/genesis.hpp"
 

@@ -1,5 +1,5 @@
 // A footwall solved by as many processes as mpirun starts; the first prints what it found, with all
-// digits. tests/verification/fem_parallel_test.cpp compares.
+// digits. tests/verification/base/fem_parallel_test.cpp compares.
 
 #include "tests/verification/footwalls.hpp"
 

@@ -7,7 +7,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
-#include "apps/run/join_ranks.hpp"
+#include "apps/run/ranks/join_ranks.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "dem/contacts/contacts.hpp"
 

@@ -1,9 +1,9 @@
 // `listric export`: a run's horizons, faults, surfaces and discs as files of other programs. The
 // formats say the same, and what the run has said before.
 
-#include "apps/archive/run_history.hpp"
-#include "apps/archive/setting.hpp"
-#include "apps/measures/horizons.hpp"
+#include "apps/archive/folder/run_history.hpp"
+#include "apps/archive/folder/setting.hpp"
+#include "apps/measures/strata/horizons.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"

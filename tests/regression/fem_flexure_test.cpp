@@ -1,7 +1,7 @@
 // The plan of flexure from the call to the files: names and numbers.
 
 #include "apps/studies/flexure.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 #include "fem/elastic_layer.hpp"
 #include "tests/xml_files.hpp"
 

@@ -17,7 +17,7 @@ def chained(value, word):
 
 
 def mend_checksum(path):
-    """Appends what apps/archive/checksum.cpp appends."""
+    """Appends what apps/archive/snapshot/checksum.cpp appends."""
     data = path.read_bytes()
     value = len(data)
     for at in range(0, len(data), 8):

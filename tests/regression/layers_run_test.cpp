@@ -2,9 +2,9 @@
 // it is resumed; the column `layer` is there only with the table. Some 370 discs to 100 m: ten
 // seconds of processor time for the four runs.
 
-#include "apps/archive/exports.hpp"
-#include "apps/figures/seismic_section.hpp"
-#include "apps/measures/rock_layers.hpp"
+#include "apps/archive/tables/exports.hpp"
+#include "apps/figures/sections/seismic_section.hpp"
+#include "apps/measures/strata/rock_layers.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "tests/scene_runs.hpp"

@@ -1,11 +1,11 @@
 // An effect in one place: one that the program does not have, handed in by its description and one
 // line of a list, is in everything that the program's own are in.
 
-#include "apps/archive/dictionary.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
-#include "apps/run/prediction.hpp"
+#include "apps/run/forecast/prediction.hpp"
 #include "tests/regression/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 

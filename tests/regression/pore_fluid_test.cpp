@@ -3,9 +3,9 @@
 
 #include "apps/commands/explain.hpp"
 #include "apps/figures/draw_run.hpp"
-#include "apps/figures/export_run.hpp"
+#include "apps/figures/sections/export_run.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 

@@ -564,7 +564,7 @@ class Reader(unittest.TestCase):
         version = re.search(r"project\(listric VERSION ([\d.]+)", project).group(1)
         package = (SOURCES / "apps/python/pyproject.toml").read_text()
         self.assertIn(f'version = "{version}"', package)
-        written = (SOURCES / "apps/archive/snapshot.cpp").read_text()
+        written = (SOURCES / "apps/archive/snapshot/snapshot.cpp").read_text()
         self.assertIn(f"constexpr int format = {FORMAT};", written)
 
     def test_cost_of_opening(self):

@@ -1,7 +1,7 @@
 // `listric sweep` on scenes of a few hundred discs: killed and gone on, cut into tasks, with runs
 // that fail.
 
-#include "apps/archive/output_folder.hpp"
+#include "apps/archive/folder/output_folder.hpp"
 #include "tests/program.hpp"
 
 #include <fmt/format.h>

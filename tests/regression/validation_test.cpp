@@ -1,7 +1,7 @@
 // `listric validate` on a scene of a few hundred discs: it makes the runs, resumes where it was
 // stopped, measures and writes.
 
-#include "apps/archive/output_folder.hpp"
+#include "apps/archive/folder/output_folder.hpp"
 #include "apps/support/version.hpp"
 #include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"

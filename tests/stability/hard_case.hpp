@@ -3,7 +3,7 @@
 // Checks that all hard cases share: how fast discs move, whether all are where they may be, and
 // that a restart in the middle changes nothing.
 
-#include "apps/archive/snapshot.hpp"
+#include "apps/archive/snapshot/snapshot.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"

@@ -3,9 +3,9 @@
 
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/run/oversize.hpp"
-#include "apps/scene/tables.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/run/forecast/oversize.hpp"
+#include "apps/scene/toml/tables.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 

@@ -1,4 +1,4 @@
-// How many discs a scene has and how long it takes, as apps/run/prediction.cpp has it. Prices and speeds are the
+// How many discs a scene has and how long it takes, as apps/run/forecast/prediction.cpp has it. Prices and speeds are the
 // program's own numbers, which it wrote into the page.
 
 /** A parameter in force: the scene's, that of its accuracy, or the default. */
@@ -25,7 +25,7 @@ function defaultAt(facts, schema, document, path) {
 }
 
 /** A parameter's default at a geological rate, m/a: one that stands for metres of travel follows it, as at_rate() in
- * apps/scene/parameter.cpp has it. */
+ * apps/scene/parameters/parameter.cpp has it. */
 function atRate(own, rate) {
   const usual = own["x-listric"].usual_rate_m_per_a;
   if (!(rate > 0) || rate === usual) return own.default;

@@ -1,4 +1,4 @@
-// Where rigid footwall and slip alone put the basin, as apps/measures/kinematics.cpp has it: y up, metres, degrees.
+// Where rigid footwall and slip alone put the basin, as apps/measures/basin/kinematics.cpp has it: y up, metres, degrees.
 
 /** Spacing of samples, m, as of kinematics.cpp: finer where the detachment is shorter than 5 km. */
 function spacingOf(chain) { return Math.min(25, lengthOf(chain) / 200); }

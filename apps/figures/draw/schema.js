@@ -1,7 +1,7 @@
 // What a scene may hold: the program's schema (JSON schema, draft 4, as far as `listric schema` uses it), with the
 // program's way of saying what is wrong.
 
-/** Damerau-Levenshtein distance in which no letter moves twice, as apps/support/spelling.cpp has it. */
+/** Damerau-Levenshtein distance in which no letter moves twice, as apps/support/words/spelling.cpp has it. */
 function editDistance(a, b) {
   let above = [], row = Array.from({length: b.length + 1}, (_, j) => j);
   for (let i = 1; i <= a.length; ++i) {

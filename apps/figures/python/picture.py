@@ -8,7 +8,7 @@ from plot import InputError, np
 from PIL import Image, ImageOps
 
 TURNED = (5, 6, 7, 8)   # orientations of Exif that exchange width and height
-Image.MAX_IMAGE_PIXELS = None   # the program has looked at the size (apps/support/picture.hpp)
+Image.MAX_IMAGE_PIXELS = None   # the program has looked at the size (apps/support/files/picture.hpp)
 
 
 def read_picture(path: str, size: tuple[float, float] = (math.inf, math.inf),

@@ -2,9 +2,9 @@
 
 #include "apps/model/base_driver.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/target_csv.hpp"
-#include "apps/support/csv.hpp"
-#include "apps/support/text.hpp"
+#include "apps/scene/picks/target_csv.hpp"
+#include "apps/support/files/csv.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

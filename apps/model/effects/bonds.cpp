@@ -1,5 +1,5 @@
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/pieces.hpp"
+#include "apps/scene/toml/pieces.hpp"
 
 namespace listric::effects::bonds {
 

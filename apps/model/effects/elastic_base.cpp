@@ -5,8 +5,8 @@
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/stage.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/parameters/stage.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
 

@@ -1,5 +1,5 @@
 #include "apps/model/effects/elastic_base_request.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
 

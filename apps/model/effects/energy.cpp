@@ -2,7 +2,7 @@
 #include "dem/events/equilibrium.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <algorithm>
 #include <cmath>

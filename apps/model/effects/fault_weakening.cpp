@@ -1,8 +1,8 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
-#include "apps/scene/stage.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/parameters/stage.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/round_off.hpp"

@@ -2,7 +2,7 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/target_csv.hpp"
+#include "apps/scene/picks/target_csv.hpp"
 
 #include <fmt/format.h>
 

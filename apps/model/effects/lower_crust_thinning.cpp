@@ -2,8 +2,8 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/stage.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/parameters/stage.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 

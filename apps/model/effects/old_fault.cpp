@@ -1,12 +1,12 @@
 #include "dem/events/old_faults.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/old_fault.hpp"
-#include "apps/scene/picked_pieces.hpp"
+#include "apps/scene/picks/old_fault.hpp"
+#include "apps/scene/picks/picked_pieces.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <fmt/format.h>

@@ -1,15 +1,15 @@
-#include "coupling/pore_fluid.hpp"
+#include "fluid/pore_fluid.hpp"
 
 #include "apps/model/effects/pore_fluid_measures.hpp"
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
-#include "apps/support/spelling.hpp"
-#include "coupling/pore_column.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "fluid/pore_column.hpp"
 #include "dem/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/pieces.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/toml/pieces.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
 

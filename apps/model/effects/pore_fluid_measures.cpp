@@ -2,7 +2,7 @@
 
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
-#include "coupling/pore_fluid.hpp"
+#include "fluid/pore_fluid.hpp"
 #include "dem/events/energy_account.hpp"
 
 #include <algorithm>

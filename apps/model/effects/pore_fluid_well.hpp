@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/scene/effect.hpp"
-#include "coupling/pore_fluid.hpp"
+#include "apps/scene/parameters/effect.hpp"
+#include "fluid/pore_fluid.hpp"
 
 #include <vector>
 

@@ -3,10 +3,10 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/measure_names.hpp"
-#include "apps/scene/pieces.hpp"
-#include "apps/scene/stage.hpp"
-#include "apps/scene/target_csv.hpp"
-#include "apps/support/spelling.hpp"
+#include "apps/scene/toml/pieces.hpp"
+#include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/picks/target_csv.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "apps/scene/stages.hpp"
+#include "apps/scene/parameters/stages.hpp"
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"

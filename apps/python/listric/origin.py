@@ -69,7 +69,7 @@ def _of_moment(summary, newest) -> list[str]:
 
 
 def scene_hash(text: bytes) -> str:
-    """Hash of every parameter in a scene.toml, as the program has it (apps/archive/provenance.cpp)."""
+    """Hash of every parameter in a scene.toml, as the program has it (apps/archive/folder/provenance.cpp)."""
     value = 1469598103934665603
     for line in text.splitlines():
         if (said := _without_comment(line)) and not said.startswith(b"report = "):

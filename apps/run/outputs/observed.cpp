@@ -1,4 +1,4 @@
-#include "apps/archive/observed_misfit.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"

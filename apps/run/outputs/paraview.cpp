@@ -1,4 +1,4 @@
-#include "apps/figures/paraview.hpp"
+#include "apps/figures/sections/paraview.hpp"
 
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"

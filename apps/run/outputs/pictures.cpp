@@ -1,14 +1,14 @@
 #include "apps/archive/examine.hpp"
-#include "apps/archive/provenance.hpp"
-#include "apps/archive/run_files.hpp"
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/folder/provenance.hpp"
+#include "apps/archive/folder/run_files.hpp"
+#include "apps/archive/folder/run_folder.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/well_figure.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/support/memory.hpp"
+#include "apps/support/machine/memory.hpp"
 
 #include <exception>
 #include <future>

@@ -1,12 +1,12 @@
 #include "apps/archive/examine.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/summary.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/summary.hpp"
 #include "apps/figures/report_page.hpp"
 #include "apps/figures/report_run.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/support/file.hpp"
-#include "apps/support/memory.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/memory.hpp"
 
 #include <exception>
 #include <functional>

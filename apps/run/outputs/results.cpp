@@ -1,11 +1,11 @@
 #include "apps/run/results.hpp"
 
-#include "apps/archive/json_file.hpp"
-#include "apps/measures/profile.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/measures/basin/profile.hpp"
 #include "apps/run/outputs.hpp"
-#include "apps/run/prediction.hpp"
+#include "apps/run/forecast/prediction.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/scene/accuracy.hpp"
+#include "apps/scene/parameters/accuracy.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "apps/archive/scene_lines.hpp"
+#include "apps/archive/folder/scene_lines.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 
 namespace listric {
 

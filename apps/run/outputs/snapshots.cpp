@@ -1,5 +1,5 @@
-#include "apps/archive/run_files.hpp"
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/folder/run_files.hpp"
+#include "apps/archive/folder/run_folder.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 

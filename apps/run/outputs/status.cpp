@@ -1,8 +1,8 @@
-#include "apps/archive/json_file.hpp"
-#include "apps/archive/rock_record.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/tables/rock_record.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/scene/stage.hpp"
+#include "apps/scene/parameters/stage.hpp"
 
 #include <cmath>
 #include <cstdint>

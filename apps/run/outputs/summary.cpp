@@ -1,12 +1,12 @@
-#include "apps/archive/summary.hpp"
+#include "apps/archive/folder/summary.hpp"
 
-#include "apps/archive/known_errors.hpp"
-#include "apps/archive/provenance.hpp"
-#include "apps/archive/rock_record.hpp"
+#include "apps/archive/folder/known_errors.hpp"
+#include "apps/archive/folder/provenance.hpp"
+#include "apps/archive/tables/rock_record.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
-#include "apps/support/file.hpp"
+#include "apps/support/files/file.hpp"
 
 namespace listric {
 

@@ -1,0 +1,134 @@
+#include "apps/archive/tables/burial_history.hpp"
+
+#include "apps/archive/tables/exports.hpp"
+#include "apps/archive/folder/setting.hpp"
+#include "apps/measures/strata/burial.hpp"
+#include "apps/measures/basin/profile.hpp"
+#include "apps/support/fineness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace listric::archive {
+
+using namespace dem;
+using namespace measures;
+
+namespace {
+
+std::vector<WellPlace> places_by_thickness(const Observation& now) {
+    const Profile profile =
+        measure_profile(make_setting(now.scene, now.parts), now.state, now.parts.base);
+    const auto& thickness = profile.sediment_thickness;
+    const auto deepest = std::ranges::max_element(thickness);
+    if (deepest == thickness.end() || *deepest <= 0.0)
+        return {};
+    const auto x_of = [&](auto place) {
+        return profile.x[static_cast<std::size_t>(place - thickness.begin())];
+    };
+    std::vector<WellPlace> places{{"depocentre", x_of(deepest)}};
+    const auto flank =
+        std::find_if(deepest, thickness.end(), [&](double m) { return m <= 0.5 * *deepest; });
+    if (flank != thickness.end() && *flank > 0.0)
+        places.push_back({"flank", x_of(flank)});
+    return places;
+}
+
+/// A number to a millimetre, in small models less.
+double to_millimetre(const State& state, double metres) {
+    const double steps = 1e3 * fineness(state.mean_radius);
+    return std::round(steps * metres) / steps;
+}
+
+/// Lines of one well by stratum.
+struct WellLines {
+    WellPlace place;
+    WellRock rock;
+    std::map<int, Line> lines;
+};
+
+WellLines begin_well(const WellPlace& place, const Observation& drilled, double grain_density) {
+    const Setting setting = make_setting(drilled.scene, drilled.parts);
+    WellLines well{place, rock_of_well(setting, drilled.state, grain_density, place.x), {}};
+    for (const auto& [number, stratum] : well.rock)
+        well.lines[number].values = {place.name,
+                                     static_cast<double>(number),
+                                     stratum.deposited_at.m / setting.extension_rate,
+                                     to_millimetre(drilled.state, stratum.deposited_thickness),
+                                     setting.sediment->surface_porosity,
+                                     static_cast<double>(stratum.ids.size())};
+    return well;
+}
+
+void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
+                double grain_density) {
+    const Setting setting = make_setting(now.scene, now.parts);
+    const dem::Clock& clock = now.state.clock;
+    for (const BuriedStratum& b :
+         buried_strata(setting, now.parts.base, now.state, grain_density, well.rock)) {
+        Line& line = well.lines.at(b.stratum);
+        const auto metres = [&](double x) { return to_millimetre(now.state, x); };
+        line.points.push_back({metres(b.x), -metres(b.top)});
+        line.at_points.insert(line.at_points.end(),
+                              {metres(b.base), metres(b.top - b.ground), metres(b.base - b.top),
+                               b.porosity, clock.extension.m,
+                               clock.travel.m / setting.extension_rate,
+                               (drilled_at - clock.travel).m / setting.extension_rate});
+    }
+}
+
+} // namespace
+
+std::vector<WellPlace> well_places(const Observation& now, const std::vector<double>& wells) {
+    std::vector<WellPlace> places;
+    for (const double x : wells)
+        places.push_back(well_place(x));
+    if (!places.empty())
+        return places;
+    const MeasuredWell* const well = measured_well(now.scene);
+    places = well ? well->places(now) : std::vector<WellPlace>();
+    return places.empty() && now.parts.sediment ? places_by_thickness(now) : places;
+}
+
+LineTable burial_table(const RunFolder& run, const std::filesystem::path& drilled,
+                       const std::vector<double>& wells) {
+    LineTable table{"burial",
+                    "stratum",
+                    {"name", "stratum", "deposited_at_a", "deposited_thickness_m",
+                     "deposited_porosity", "discs"},
+                    {"base_depth_m", "ground_depth_m", "thickness_m", "porosity", "extension_m",
+                     "time_a", "age_a"}};
+    if (!run.parts.sediment)
+        return table;
+    const double grain_density = run.parts.sediment->grain_density;
+    std::vector<WellLines> all;
+    dem::Travel drilled_at;
+    {
+        const Moment moment = run.read(drilled);
+        const Observation now{run.scene, run.parts, moment.state, moment.events};
+        drilled_at = moment.state.clock.travel;
+        for (const WellPlace& place : well_places(now, wells))
+            all.push_back(begin_well(place, now, grain_density));
+    }
+    if (std::ranges::all_of(all, [](const WellLines& well) { return well.rock.empty(); }))
+        return table;
+    for (const std::filesystem::path& snapshot : run.snapshots) {
+        const Moment moment = run.read(snapshot);
+        for (WellLines& well : all)
+            add_moment(well, {run.scene, run.parts, moment.state, moment.events}, drilled_at,
+                       grain_density);
+        if (snapshot == drilled)
+            break;
+    }
+    for (WellLines& well : all)
+        for (auto& [stratum, line] : well.lines)
+            if (!line.points.empty())
+                table.lines.push_back(std::move(line));
+    return table;
+}
+
+} // namespace listric::archive

@@ -1,0 +1,239 @@
+#include "apps/measures/basin/kinematics.hpp"
+
+#include "dem/hypotenuse.hpp"
+#include "dem/threads/shared_loop.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+constexpr double least_shear_angle = -30.0, greatest_shear_angle = 70.0; ///< that are tried
+constexpr double nowhere = -std::numeric_limits<double>::infinity();     ///< height of no curve, m
+
+/// Spacing of samples, m, as of kinematics.js: finer where the detachment is shorter than 5 km.
+double sample_spacing(const Chain& detachment) {
+    return std::min(25.0, length_of(detachment) / 200.0);
+}
+
+/// Unit vector along the chain.
+Point tangent_at(const Chain& chain, double arc_length) {
+    const double h = 1e-3;
+    const double end = length_of(chain);
+    const double from = std::clamp(arc_length, 0.0, end - h);
+    const Point a = point_at(chain, from), b = point_at(chain, from + h);
+    const double length = hypotenuse(b.x - a.x, b.y - a.y);
+    return {(b.x - a.x) / length, (b.y - a.y) / length};
+}
+
+/// Height of the detachment against u = x + depth tan(angle): where a shear plane meets it.
+class ShearCoordinate {
+public:
+    ShearCoordinate(const Chain& detachment, double tangent) {
+        const double end = length_of(detachment), spacing = sample_spacing(detachment);
+        for (double s = 0.0; s <= end; s += spacing) {
+            const Point p = point_at(detachment, s);
+            // A detachment that rises again is met first where it is met first.
+            if (const double u = p.x - p.y * tangent; u_.empty() || u > u_.back()) {
+                u_.push_back(u);
+                y_.push_back(p.y);
+            }
+        }
+    }
+
+    double height(double u) const {
+        if (u <= u_.front())
+            return 0.0;
+        const auto next = std::ranges::lower_bound(u_, u);
+        if (next == u_.end())
+            return y_.back();
+        const auto k = static_cast<std::size_t>(next - u_.begin());
+        const double share = (u - u_[k - 1]) / (u_[k] - u_[k - 1]);
+        return y_[k - 1] + share * (y_[k] - y_[k - 1]);
+    }
+
+private:
+    std::vector<double> u_, y_;
+};
+
+/// Height of a curve at every column: its highest point there; -infinity where it is not.
+std::vector<double> heights(const std::vector<Point>& curve, std::span<const double> x) {
+    std::vector<double> y(x.size(), nowhere);
+    for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
+        Point a = curve[k], b = curve[k + 1];
+        if (b.x < a.x)
+            std::swap(a, b);
+        const auto first = std::ranges::lower_bound(x, a.x);
+        for (auto column = first; column != x.end() && *column <= b.x; ++column) {
+            const double share = b.x > a.x ? (*column - a.x) / (b.x - a.x) : 0.0;
+            auto& value = y[static_cast<std::size_t>(column - x.begin())];
+            value = std::max(value, a.y + share * (b.y - a.y));
+        }
+    }
+    return y;
+}
+
+} // namespace
+
+std::vector<Point> inclined_shear_top(const Chain& detachment, double extension, double angle,
+                                      double right) {
+    const double tangent = std::tan(angle * pi / 180.0);
+    const ShearCoordinate fault(detachment, tangent);
+    std::vector<Point> top;
+    const double deepest = -point_at(detachment, length_of(detachment)).y;
+    const double spacing = sample_spacing(detachment);
+    for (double u = extension; u <= right + deepest * tangent; u += spacing) {
+        const double y = fault.height(u) - fault.height(u - extension);
+        const double x = u + y * tangent;
+        if (x > right && u > right)
+            break;
+        top.push_back({x, y});
+    }
+    return top;
+}
+
+std::vector<Point> normals_top(const Chain& detachment, double extension, double right) {
+    const double end = length_of(detachment), spacing = sample_spacing(detachment);
+    std::vector<Point> top;
+    for (double x = 0.0; x + extension <= right; x += spacing) {
+        // The normal through a point of the original surface; at the breakaway the chain is open.
+        const auto foot = foot_point(detachment, {x, 0.0});
+        const double s = foot ? foot->arc_length : 0.0;
+        const double distance = foot ? foot->distance : x;
+        if (s + extension > end)
+            break;
+        const Point p = point_at(detachment, s + extension);
+        const Point t = tangent_at(detachment, s + extension);
+        top.push_back({p.x - distance * t.y, p.y + distance * t.x});
+    }
+    return top;
+}
+
+double normals_tilt(const Chain& detachment, double extension) {
+    const Point a = tangent_at(detachment, 0.0), b = tangent_at(detachment, extension);
+    return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y) * 180.0 / pi;
+}
+
+double normals_halfgraben_share(const Chain& detachment, double extension, double right) {
+    const std::vector<Point> top = normals_top(detachment, extension, right);
+    const double depth = -point_at(detachment, length_of(detachment)).y;
+    if (top.size() < 2 || extension <= 0.0 || depth <= 0.0)
+        return 0.0;
+    // The crest is the first point that is as high as the original surface, or the highest.
+    std::size_t crest = 0;
+    for (std::size_t k = 0; k < top.size() && top[crest].y < -1e-6 * depth; ++k)
+        if (top[k].y > top[crest].y)
+            crest = k;
+    double area = 0.0;
+    for (std::size_t k = 0; k < crest; ++k)
+        area -= 0.5 * (top[k].y + top[k + 1].y) * (top[k + 1].x - top[k].x);
+    const double spacing = sample_spacing(detachment);
+    for (double s = 0.0; s < extension; s += spacing) {
+        const Point a = point_at(detachment, s);
+        const Point b = point_at(detachment, std::min(s + spacing, extension));
+        area -= 0.5 * (a.y + b.y) * (b.x - a.x);
+    }
+    return area / (extension * depth);
+}
+
+double misfit(const Chain& detachment, const std::vector<Point>& prediction,
+              std::span<const double> x, std::span<const double> top, double last) {
+    if (prediction.empty())
+        return 0.0;
+    std::vector<Point> curve;
+    const double end = length_of(detachment), spacing = sample_spacing(detachment);
+    for (double s = 0.0; s <= end; s += spacing) {
+        curve.push_back(point_at(detachment, s));
+        if (curve.back().x > prediction.front().x)
+            break;
+    }
+    std::vector<double> exposed = heights(curve, x), predicted = heights(prediction, x);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < x.size() && x[k] <= last; ++k) {
+        const double y = std::max(predicted[k], x[k] < prediction.front().x ? exposed[k] : nowhere);
+        if (!std::isfinite(y))
+            continue;
+        sum += (y - top[k]) * (y - top[k]);
+        count += 1.0;
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
+                                    std::span<const double> x, std::span<const double> top) {
+    const double right = x.back();
+    constexpr double step = 0.5;
+    constexpr auto steps =
+        static_cast<std::size_t>((greatest_shear_angle - least_shear_angle) / step);
+    std::vector<InclinedShearFit> tried(steps + 1);
+    in_pieces(tried.size(), 4, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const double angle = least_shear_angle + step * static_cast<double>(k);
+            tried[k] = {angle,
+                        misfit(detachment, inclined_shear_top(detachment, extension, angle, right),
+                               x, top, right)};
+        }
+    });
+    return *std::ranges::min_element(tried, {}, &InclinedShearFit::misfit);
+}
+
+double turning_length(const Chain& detachment) {
+    constexpr double less = 0.5 * pi / 180.0, steeper = 5.0 * pi / 180.0;
+    const auto dip = [](Point tangent) { return std::atan2(-tangent.y, tangent.x); };
+    double at = 0.0, end = 0.0, least = dip(detachment.front().start_tangent);
+    const auto take = [&](Point tangent) {
+        if (dip(tangent) < least - less) {
+            least = dip(tangent);
+            end = at;
+        }
+        return dip(tangent) < least + steeper;
+    };
+    for (const Segment& s : detachment) {
+        if (!take(s.start_tangent))
+            break;
+        at += s.length;
+        if (!take(s.end_tangent))
+            break;
+    }
+    return end;
+}
+
+bool head_block_turns(const Chain& detachment, double extension) {
+    const double end = turning_length(detachment);
+    return end == 0.0 || extension <= end;
+}
+
+KinematicPrediction predict_kinematics(const Chain& detachment, double extension,
+                                       const Profile& profile) {
+    assert(extension > 0.0);
+    const double right = profile.x.back();
+    const Point cutoff = point_at(detachment, extension);
+    KinematicPrediction found;
+    const InclinedShearFit shear =
+        fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
+    if (shear.angle > least_shear_angle && shear.angle < greatest_shear_angle)
+        found.shear = shear;
+    if (head_block_turns(detachment, extension))
+        found.tilt = normals_tilt(detachment, extension);
+    if (extension <= length_of(detachment))
+        found.cutoff = Point{cutoff.x, -cutoff.y};
+    if (const double share = normals_halfgraben_share(detachment, extension, right);
+        share > 0.0 && share < 1.0)
+        found.halfgraben_share = share;
+    const std::vector<Point> normals = normals_top(detachment, extension, right);
+    if (!normals.empty() && extension < detachment.front().length) {
+        // Beyond the block that rotates, the hanging wall collapses.
+        const double last = cutoff.x + 0.5 * (detachment.front().end.x - cutoff.x);
+        found.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);
+    }
+    return found;
+}
+
+} // namespace listric::measures

@@ -1,0 +1,84 @@
+#include "apps/measures/strata/seismic_trace.hpp"
+
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace listric::measures {
+
+namespace {
+
+/// Half length of Ricker's wavelet in its period: beyond it is below 1e-6.
+constexpr double reach_in_periods = 2.0;
+
+} // namespace
+
+SeismicRock saturated_rock(const SeismicLaw& law, double porosity) {
+    return {1.0 / ((1.0 - porosity) / law.matrix_velocity + porosity / law.fluid_velocity),
+            (1.0 - porosity) * law.grain_density + porosity * law.fluid_density};
+}
+
+std::vector<Reflection> reflections(std::span<const SeismicLayer> layers) {
+    std::vector<Reflection> all;
+    double depth = 0.0, time = 0.0;
+    for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
+        depth += layers[k].thickness;
+        time += 2.0 * layers[k].thickness / layers[k].rock.velocity;
+        const double above = layers[k].rock.impedance(), below = layers[k + 1].rock.impedance();
+        all.push_back({depth, time, (below - above) / (below + above), layers[k].rock.velocity});
+    }
+    return all;
+}
+
+double ricker(double time, double frequency) {
+    const double a = dem::pi * frequency * time;
+    return (1.0 - 2.0 * a * a) * std::exp(-a * a);
+}
+
+double ricker_period(double frequency) { return std::sqrt(6.0) / (dem::pi * frequency); }
+
+void add_reflections(std::span<float> trace, double interval,
+                     std::span<const Reflection> reflections, double frequency) {
+    assert(interval > 0.0 && frequency > 0.0);
+    const double reach = reach_in_periods * ricker_period(frequency);
+    const auto last = static_cast<double>(trace.size()) - 1.0;
+    for (const Reflection& r : reflections) {
+        const double from = std::max(std::ceil((r.time - reach) / interval), 0.0);
+        const double to = std::min(std::floor((r.time + reach) / interval), last);
+        for (double sample = from; sample <= to; sample += 1.0)
+            trace[static_cast<std::size_t>(sample)] +=
+                static_cast<float>(r.coefficient * ricker(sample * interval - r.time, frequency));
+    }
+}
+
+double time_at(std::span<const Reflection> reflections, double depth, double last) {
+    const auto next =
+        std::ranges::find_if(reflections, [&](const Reflection& r) { return r.depth >= depth; });
+    const double velocity = next == reflections.end() ? last : next->velocity;
+    const double from = next == reflections.begin() ? 0.0 : (next - 1)->depth;
+    const double since = next == reflections.begin() ? 0.0 : (next - 1)->time;
+    return since + 2.0 * (depth - from) / velocity;
+}
+
+void add_reflections_in_depth(std::span<float> trace, double interval,
+                              std::span<const Reflection> reflections, double last,
+                              double frequency) {
+    assert(interval > 0.0 && frequency > 0.0);
+    const double reach = reach_in_periods * ricker_period(frequency);
+    std::size_t first = 0; // reflection within reach of the sample
+    for (std::size_t k = 0; k < trace.size(); ++k) {
+        const double time = time_at(reflections, interval * static_cast<double>(k), last);
+        while (first < reflections.size() && reflections[first].time < time - reach)
+            ++first;
+        double sum = 0.0;
+        for (std::size_t n = first; n < reflections.size() && reflections[n].time <= time + reach;
+             ++n)
+            sum += reflections[n].coefficient * ricker(time - reflections[n].time, frequency);
+        trace[k] += static_cast<float>(sum);
+    }
+}
+
+} // namespace listric::measures

@@ -1,0 +1,115 @@
+#include "apps/scene/toml/toml_slips.hpp"
+
+#include "apps/support/words/number.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/words/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <regex>
+
+namespace listric {
+
+namespace {
+
+constexpr std::size_t longest_slip = 200; ///< bytes of a line; expressions must not go deep
+
+/// A unit that people write, and how many of those that end a key it is.
+struct WrittenUnit {
+    std::string_view end, word;
+    double factor;
+};
+
+constexpr WrittenUnit written_units[] = {
+    {"_m", "km", 1e3},    {"_m", "m", 1.0},     {"_m", "cm", 1e-2},  {"_m", "mm", 1e-3},
+    {"_m", "ft", 0.3048}, {"_a", "Ma", 1e6},    {"_a", "Myr", 1e6},  {"_a", "ka", 1e3},
+    {"_a", "kyr", 1e3},   {"_a", "a", 1.0},     {"_a", "yr", 1.0},   {"_a", "years", 1.0},
+    {"_pa", "GPa", 1e9},  {"_pa", "MPa", 1e6},  {"_pa", "kPa", 1e3}, {"_pa", "Pa", 1.0},
+    {"_s", "s", 1.0},     {"_deg", "deg", 1.0}, {"_deg", "°", 1.0},
+};
+
+/// "figures_at_m" of "output.figures_at_m[0]".
+std::string_view last_key(std::string_view path) {
+    const std::string_view last = path.substr(path.rfind('.') + 1);
+    return last.substr(0, last.find('['));
+}
+
+/// "10 km" in units of a key.
+std::optional<double> in_unit_of(std::string_view key, const std::string& value) {
+    static const std::regex number_and_unit(
+        "([+-]?[0-9]+(?:[.,][0-9]*)?(?:[eE][+-]?[0-9]+)?) *(\\S+)");
+    std::smatch parts;
+    if (key.find("_per_") != key.npos || !std::regex_match(value, parts, number_and_unit))
+        return std::nullopt;
+    std::string digits = parts[1].str();
+    std::ranges::replace(digits, ',', '.');
+    const auto number = parse_number(digits);
+    const std::string word = parts[2].str();
+    for (const WrittenUnit& unit : written_units)
+        if (number && key.ends_with(unit.end) && word == unit.word)
+            return *number * unit.factor;
+    return std::nullopt;
+}
+
+/// A value of a line that looks like a text: between quotes of typography or without any.
+std::string bare_text(std::string value) {
+    for (const std::string_view mark : {"“", "”", "„", "‘", "’", "«", "»"})
+        for (auto at = value.find(mark); at != value.npos; at = value.find(mark))
+            value.erase(at, mark.size());
+    return value;
+}
+
+bool is_match(const std::string& text, const char* pattern) {
+    return std::regex_match(text, std::regex(pattern));
+}
+
+std::string cure_of_value(const std::string& key, const std::string& value) {
+    const std::string bare = bare_text(value);
+    if (bare != value && bare.find_first_of("\"'\\") == bare.npos)
+        return fmt::format("; quotes of typography are no quotes; write {} = \"{}\"", key, bare);
+    if (value.starts_with('"') && value.find('\\') != value.npos &&
+        value.find('\'') == value.npos && value.find('"', 1) == value.size() - 1)
+        return fmt::format("; a backslash in \"...\" begins a code; write {} = '{}'", key,
+                           value.substr(1, value.size() - 2));
+    if (is_match(value, "True|TRUE|Yes|yes|on") || is_match(value, "False|FALSE|No|no|off"))
+        return fmt::format("; write {} = {}", key,
+                           is_match(value, "True|TRUE|Yes|yes|on") ? "true" : "false");
+    if (!value.empty() && value.find_first_of("0123456789") == value.find_first_not_of("+-."))
+        return cure_of_number(key, value);
+    // Brackets and quotes belong to a value of several parts, whose slip is within.
+    if (!value.empty() && value.find_first_of("[]{}\"'=,") == value.npos)
+        return fmt::format("; a text needs quotes; write {0} = {1}{2}{1}", key,
+                           value.find('\\') == value.npos ? '"' : '\'', value);
+    return "";
+}
+
+} // namespace
+
+std::string cure_of_number(std::string_view path, std::string_view given) {
+    const std::string value(given.substr(0, longest_slip));
+    const std::string_view key = last_key(path);
+    if (const auto number = in_unit_of(key, value))
+        return fmt::format("; write {} = {}", key, text(*number));
+    if (const auto number = parse_number(value))
+        return fmt::format("; write {} = {}", key, text(*number));
+    if (value.find_first_of("0123456789") == value.npos)
+        return "";
+    const std::string what = number_objection(value);
+    return what.empty() ? "" : fmt::format("; this is {}", what);
+}
+
+std::string cure_of_line(std::string_view document, std::size_t line) {
+    for (; line > 1 && !document.empty(); --line)
+        document.remove_prefix(std::min(document.find('\n'), document.size() - 1) + 1);
+    const std::string text(document.substr(0, document.find_first_of("\r\n")));
+    if (text.size() > longest_slip)
+        return "";
+    static const std::regex pair("\\s*([A-Za-z0-9_.-]+)\\s*=\\s*(.*?)\\s*(#.*)?");
+    std::smatch parts;
+    return std::regex_match(text, parts, pair) ? cure_of_value(parts[1].str(), parts[2].str()) : "";
+}
+
+} // namespace listric

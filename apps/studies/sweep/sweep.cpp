@@ -1,0 +1,321 @@
+#include "apps/studies/sweep/sweep.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/folder/output_folder.hpp"
+#include "apps/archive/folder/provenance.hpp"
+#include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/folder/scene_lines.hpp"
+#include "apps/archive/folder/setting.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/run/batch.hpp"
+#include "apps/run/exit_code.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/studies/sweep/effects_table.hpp"
+#include "apps/studies/sweep/sweep_effects.hpp"
+#include "apps/studies/sweep/sweep_plan.hpp"
+#include "apps/studies/sweep/sweep_table.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/files/file.hpp"
+#include "apps/support/machine/memory.hpp"
+#include "apps/support/machine/python.hpp"
+#include "apps/support/words/text.hpp"
+#include "apps/support/version.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <optional>
+#include <set>
+
+namespace listric {
+
+using namespace archive;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_on_sheet = 100;
+
+/// The measures of a finished run, none where it has no such number.
+std::vector<std::optional<double>> measures_of(const SweepPlan& plan, const fs::path& folder,
+                                               const JsonObject& summary) {
+    std::set<double> extensions;
+    for (const SweepMeasure& measure : plan.measures)
+        if (measure.at)
+            extensions.insert(*measure.at);
+    const std::vector<double> at(extensions.begin(), extensions.end());
+    const auto earlier =
+        at.empty() ? std::vector<std::pair<double, NamedNumbers>>{} : examine_run(folder, at);
+    std::vector<std::optional<double>> values;
+    for (const SweepMeasure& measure : plan.measures) {
+        values.emplace_back();
+        if (!measure.at) {
+            values.back() = number_at(summary, measure.name.c_str());
+            continue;
+        }
+        for (const auto& [extension, numbers] : earlier)
+            for (const auto& [name, number] : numbers)
+                if (extension == *measure.at && name == measure.name)
+                    values.back() = number;
+    }
+    return values;
+}
+
+class Sweep {
+public:
+    explicit Sweep(const SweepRequest& request)
+        : request_(request), plan_(load_sweep_plan(request.plan)), points_(sweep_points(plan_)),
+          output_(output_of(request, plan_)), log_(request.quiet) {
+        std::vector<OwnFile> written{{output_ / "sweep.csv", "run,seed,"},
+                                     {output_ / "effects.csv", "measure,term,effect"},
+                                     {output_ / "effects.png", "Listric"}};
+        if (!fs::exists(output_ / "sweep.csv")) // else the sheet beside it is the sweep's
+            written.push_back({output_ / "sheet.png", "Listric"});
+        require_own(written, {});
+        make_folder(output_);
+        lock_.emplace(output_);
+    }
+
+    bool carry_out() {
+        const std::vector<SweepRow> rows = request_.merge.empty() ? make() : merge();
+        write_text(output_ / "sweep.csv", to_csv(plan_, points_, rows));
+        if (!request_.merge.empty())
+            warn_of_versions(rows);
+        const auto failed =
+            std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); });
+        log_.say(fmt::format("{}: {} runs{}", (output_ / "sweep.csv").string(), rows.size(),
+                             failed ? fmt::format(", {} of them failed", failed) : ""));
+        if (!request_.task) {
+            warn_of_empty_columns(rows);
+            write_effects(rows);
+            draw_sheet_or_warn(rows);
+        }
+        return rows.empty() || failed < std::ssize(rows);
+    }
+
+private:
+    static fs::path output_of(const SweepRequest& request, const SweepPlan& plan) {
+        if (!request.output.empty())
+            return request.output;
+        const std::string task =
+            request.task ? fmt::format("-{}-of-{}", request.task->number, request.task->of) : "";
+        return fmt::format("out/sweep-{}{}", plan.name, task);
+    }
+
+    std::string name_of(const SweepRow& row) const {
+        std::string text = fmt::format("run {}, seed {}", row.run, row.seed);
+        for (std::size_t k = 0; k < plan_.parameters.size(); ++k)
+            text += fmt::format(", {}={}", plan_.parameters[k].name, points_[row.run - 1][k].text);
+        return text;
+    }
+
+    Scene scene_of(const SweepRow& row) const {
+        try {
+            return scene_at(plan_, points_[row.run - 1], row.seed);
+        } catch (const SceneError& error) {
+            fail(fmt::format("{}: {}: {}", request_.plan.string(), name_of(row), error.what()));
+        }
+    }
+
+    /// Refuses a run that was made by another plan.
+    void check_run(const SweepRow& row) const {
+        const fs::path file = row.folder / "scene.toml";
+        const std::string there = read_text_if_there(file);
+        const auto differs = there.empty() ? std::nullopt
+                                           : scene_difference(scene_values(there),
+                                                              scene_values(to_toml(scene_of(row))));
+        if (differs) {
+            const auto [there_is, asked] = shown_apart(differs->one, differs->other);
+            throw UsageError(fmt::format("--merge: {}: is of another plan: {} = {} there, {} in {}",
+                                         file.string(), shown(differs->parameter), there_is, asked,
+                                         request_.plan.string()));
+        }
+        const std::string state = text_at(object_in(row.folder / "summary.json"), "state_hash");
+        if (!state.empty() && state != row.state_hash)
+            throw UsageError(
+                fmt::format("--merge: {}: is newer than its row in {}: make that "
+                            "task's table again, by its call with --task",
+                            (row.folder / "summary.json").string(),
+                            (row.folder / "../../sweep.csv").lexically_normal().string()));
+    }
+
+    /// Tells of rows that other versions have made.
+    void warn_of_versions(const std::vector<SweepRow>& rows) {
+        std::set<std::string> makers;
+        for (const SweepRow& row : rows)
+            if (!row.failed() && row.made_by != version)
+                makers.insert(row.made_by);
+        if (!makers.empty())
+            log_.say(fmt::format("warning: not all runs are of this version, {}: some are by {} "
+                                 "(column made_by); numbers may differ",
+                                 version, fmt::join(makers, "; ")));
+    }
+
+    /// The rows that are asked for, seeds of a point together: their packings differ, so that runs
+    /// side by side seldom wait for the same.
+    std::vector<SweepRow> asked() const {
+        std::vector<SweepRow> rows;
+        std::size_t number = 0;
+        for (std::size_t run = 1; run <= points_.size(); ++run)
+            for (int k = 0; k < plan_.seeds; ++k, ++number) {
+                const SweepTask task = request_.task.value_or(SweepTask{});
+                if (number % static_cast<std::size_t>(task.of) ==
+                    static_cast<std::size_t>(task.number - 1))
+                    rows.push_back({run, plan_.first_seed + k});
+            }
+        return rows;
+    }
+
+    std::vector<SweepRow> make() {
+        std::vector<SweepRow> rows = asked();
+        std::vector<BatchRun> runs;
+        for (SweepRow& row : rows) {
+            request_.stop.check();
+            log_.progress(
+                fmt::format("reading the scene of run {} of {}", runs.size() + 1, rows.size()));
+            row.folder = output_ / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
+            RunOptions options;
+            options.output = row.folder;
+            options.threads = request_.threads;
+            options.quiet = request_.quiet || request_.jobs > 1;
+            options.figures = options.report = false;
+            options.stop = request_.stop;
+            runs.push_back({name_of(row), scene_of(row), std::move(options)});
+        }
+        const std::vector<BatchEnding> endings =
+            make_runs(runs, request_.jobs, log_, request_.stop);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            request_.stop.check();
+            log_.progress(fmt::format("measuring run {} of {}", k + 1, rows.size()));
+            rows[k].exit_code = endings[k].exit_code;
+            rows[k].outcome = endings[k].reason.empty() ? "finished" : endings[k].reason;
+            if (rows[k].failed()) {
+                rows[k].measures.resize(plan_.measures.size());
+                continue;
+            }
+            const JsonObject summary = read_object(rows[k].folder / "summary.json");
+            rows[k].state_hash = text_at(summary, "state_hash");
+            rows[k].made_by = archive::makers_of(rows[k].folder);
+            rows[k].measures = measures_of(plan_, rows[k].folder, summary);
+        }
+        return rows;
+    }
+
+    /// The rows that tasks have left.
+    std::vector<SweepRow> merge() const {
+        std::vector<SweepRow> rows;
+        for (const fs::path& folder : request_.merge)
+            for (SweepRow& row : read_sweep(plan_, points_, folder / "sweep.csv")) {
+                row.folder = folder / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
+                if (!row.failed())
+                    check_run(row);
+                rows.push_back(std::move(row));
+            }
+        const auto place = [](const SweepRow& row) { return std::pair(row.run, row.seed); };
+        std::ranges::sort(rows, {}, place);
+        const auto twice = std::ranges::adjacent_find(rows, {}, place);
+        if (twice != rows.end())
+            throw UsageError(fmt::format("--merge: run {}, seed {} is in {} and in {}", twice->run,
+                                         twice->seed, twice->folder.parent_path().string(),
+                                         std::next(twice)->folder.parent_path().string()));
+        for (const SweepRow& row : asked())
+            if (!std::ranges::binary_search(rows, place(row), {}, place))
+                throw UsageError(fmt::format("--merge: run {}, seed {} is in none of the folders; "
+                                             "name those of all tasks",
+                                             row.run, row.seed));
+        return rows;
+    }
+
+    void warn_of_empty_columns(const std::vector<SweepRow>& rows) {
+        for (std::size_t m = 0; m < plan_.measures.size(); ++m)
+            if (std::ranges::none_of(rows,
+                                     [&](const SweepRow& r) { return r.measures[m].has_value(); }))
+                log_.say(fmt::format("warning: no run has the measure {} (docs/measures.md)",
+                                     plan_.measures[m].text));
+    }
+
+    void warn_of_few_seeds() {
+        if (const std::string text = warning_of_few(plan_.seeds); !text.empty())
+            log_.say("warning: " + text);
+    }
+
+    void write_effects(const std::vector<SweepRow>& rows) {
+        const std::vector<SweepFactor> factors = factors_of(plan_, points_, rows);
+        std::vector<std::size_t> run;
+        std::vector<int> seed;
+        for (const SweepRow& row : rows) {
+            run.push_back(row.run);
+            seed.push_back(row.seed);
+        }
+        std::vector<SweepEffect> effects;
+        for (std::size_t m = 0; m < plan_.measures.size(); ++m) {
+            std::vector<std::optional<double>> values;
+            for (const SweepRow& row : rows)
+                values.push_back(row.measures[m]);
+            std::ranges::move(effects_on(plan_.measures[m].text, factors, run, seed, values),
+                              std::back_inserter(effects));
+        }
+        for (const SweepFactor& factor : factors)
+            if (!factor.word.empty())
+                log_.say(fmt::format("{} has more than two words, which have no order: effects.csv "
+                                     "has no effect of it",
+                                     factor.name));
+        write_text(output_ / "effects.csv", effects_csv(effects));
+        std::cout << effects_text(effects);
+        if (!factors.empty())
+            warn_of_few_seeds();
+        if (!effects.empty())
+            draw_or_warn("effects.py", {fs::absolute(output_).string()});
+    }
+
+    /// Draws the sheet, for which the tables need not wait: the runs may be elsewhere.
+    void draw_sheet_or_warn(const std::vector<SweepRow>& rows) {
+        try {
+            draw_sheet(rows);
+        } catch (const std::exception& error) {
+            log_.say(std::string("warning: no sheet.png: ") + words_of(error));
+        }
+    }
+
+    /// The last state of every point, by its first seed that is finished.
+    void draw_sheet(const std::vector<SweepRow>& rows) {
+        const TemporaryFolder place(output_); // a picture of that name may be somebody's
+        FigureFrames figure(place.path);
+        std::size_t last = 0, drawn = 0;
+        for (const SweepRow& row : rows) {
+            if (row.failed() || row.run == last || drawn == most_on_sheet)
+                continue;
+            request_.stop.check();
+            last = row.run;
+            RunFolder folder(row.folder);
+            folder.scene.description = name_of(row);
+            const Moment moment = folder.read(folder.snapshots.back());
+            figure.add({folder.scene, folder.parts, moment.state, moment.events},
+                       report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
+                                     moment.state, RunHistory(folder)));
+            ++drawn;
+        }
+        if (drawn == 0)
+            return;
+        figure.draw("multiples");
+        fs::rename(place.path / "multiples.png", output_ / "sheet.png");
+    }
+
+    const SweepRequest& request_;
+    SweepPlan plan_;
+    std::vector<SweepPoint> points_;
+    fs::path output_;
+    std::optional<FolderLock> lock_;
+    Log log_;
+};
+
+} // namespace
+
+bool run_sweep(const SweepRequest& request) { return Sweep(request).carry_out(); }
+
+} // namespace listric

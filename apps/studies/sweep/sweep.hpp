@@ -1,0 +1,34 @@
+#pragma once
+
+#include "apps/support/machine/stop.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace listric {
+
+/// A part of a sweep's runs: task i of n, from 1.
+struct SweepTask {
+    int number = 1, of = 1;
+};
+
+/// A call of `listric sweep`.
+struct SweepRequest {
+    std::filesystem::path plan;
+    std::filesystem::path output;             ///< empty: out/sweep-NAME
+    int jobs = 1;                             ///< runs at a time
+    int threads = 1;                          ///< of a run
+    std::optional<SweepTask> task;            ///< none: all runs
+    std::vector<std::filesystem::path> merge; ///< folders of tasks, to be read instead of run
+    bool quiet = false;
+    StopToken stop = {};
+};
+
+/// Makes the runs of a plan (docs/sweeps.md) and leaves sweep.csv, effects.csv, sheet.png and
+/// effects.png in the output folder; a task leaves its rows of sweep.csv. Runs that are there
+/// already are not made again. Returns false where all runs have failed. Throws UsageError,
+/// SceneError, StorageError, Interrupted: the same call goes on from there.
+bool run_sweep(const SweepRequest& request);
+
+} // namespace listric

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "apps/studies/sweep/sweep_effects.hpp"
+#include "apps/studies/sweep/sweep_plan.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// A row of sweep.csv.
+struct SweepRow {
+    std::size_t run = 0; ///< design point, from 1
+    int seed = 0;
+    std::string outcome = {}; ///< "finished", or why not
+    int exit_code = 0;
+    std::string state_hash = {};
+    std::string made_by = {};                         ///< versions of the program
+    std::vector<std::optional<double>> measures = {}; ///< of the plan
+    std::filesystem::path folder = {};                ///< of the run
+
+    bool failed() const { return exit_code != 0; }
+};
+
+/// run, seed, <parameters>, outcome, exit_code, state_hash, made_by, <measures>
+std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
+                   std::span<const SweepRow> rows);
+
+/// Reads what to_csv() has written. Throws UsageError if it is of another plan, SceneError,
+/// StorageError.
+std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoint> points,
+                                 const std::filesystem::path& file);
+
+/// The parameters of rows, for effects.
+std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const SweepPoint> points,
+                                    std::span<const SweepRow> rows);
+
+} // namespace listric

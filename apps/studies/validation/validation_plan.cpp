@@ -1,0 +1,446 @@
+#include "apps/studies/validation/validation_plan.hpp"
+
+#include "apps/archive/tables/dictionary.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/scene/toml/schema_parts.hpp"
+#include "apps/scene/toml/shelf.hpp"
+#include "apps/studies/plan_file.hpp"
+#include "apps/support/words/spelling.hpp"
+#include "apps/support/statistics.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+const Shelf validation_shelf{"validation plan", "it needs [[run]] and [[experiment]]", "",
+                             "studies"};
+
+/// The names of an enumeration's values, in their order.
+const std::vector<std::string_view> kinds = {"faults", "kinematics", "conservation"};
+const std::vector<std::string_view> verdicts = {"no run yet", "reported",  "no case", "shown",
+                                                "open",       "not shown", "met",     "missed"};
+
+/// A run as the file says it.
+struct RunText {
+    ValidationRun run;
+    std::string set, without;
+};
+
+const std::vector<Parameter>& run_parameters() {
+    using T = RunText;
+    using R = ValidationRun;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&T::run, &R::name>, "", {}, "", "name of the folders"},
+        {"scene", at<&T::run, &R::scene>, "", {}, "", "scene that is run"},
+        {"set", at<&T::set>, "", {}, "", "changes, table.key=value"},
+        {"without", at<&T::without>, "", {}, "", "tables taken out"},
+        {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
+        {"accuracy", at<&T::run, &R::accuracy>, "", {}, "", "if always the same"},
+        {"at_m", at<&T::run, &R::at>, "m", {.from = 0, .to = 1e6}, "", "measured there"}};
+    return parameters;
+}
+
+ValidationRun read_run(const Entry& entry) {
+    RunText text;
+    read_table(entry, run_parameters(), &text);
+    ValidationRun& run = text.run;
+    run.set = words(text.set);
+    run.without = words(text.without);
+    need_name(entry, "name", run.name);
+    need(entry, "scene", !run.scene.empty());
+    need(entry, "at_m", !run.at.empty());
+    return run;
+}
+
+const std::vector<Parameter>& expectation_parameters() {
+    using E = Expectation;
+    static const std::vector<Parameter> parameters{
+        {"kind", one_of<&E::kind>(kinds), "", {}, "", "kind of the row"},
+        {"measure", at<&E::measure>, "", {}, "", "name"},
+        {"over", at<&E::over>, "", {}, "", "measure by which it is divided"},
+        {"what", at<&E::what>, "", {}, "", "for people"},
+        {"run", at<&E::run>, "", {}, "", "default: the first"},
+        {"minus", at<&E::minus>, "", {}, "", "run whose value is taken off"},
+        {"at_m", at<&E::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+        {"since_m", at<&E::since>, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
+        {"unit", at<&E::unit>, "", {.above = 0}, "", "value over this is shown"},
+        {"digits", at<&E::digits>, "", {.from = 0, .to = 9}, "", "after the point"},
+        {"expected", at<&E::expected>, "", {}, "", "value of the source"},
+        {"tolerance",
+         at<&E::tolerance>,
+         "",
+         {.from = 0},
+         "",
+         "most that a value may differ from it"},
+        {"least", at<&E::least>, "", {}, "", "least value"},
+        {"most", at<&E::most>, "", {}, "", "greatest value"},
+        {"words", at<&E::words>, "", {}, "", "quoted: what says so"},
+        {"source", at<&E::source>, "", {}, "", "figure and moment, or formula"},
+        {"reason", at<&E::reason>, "", {}, "", "why it has no verdict"}};
+    return parameters;
+}
+
+Expectation read_expectation(const Entry& entry) {
+    Expectation e;
+    read_table(entry, expectation_parameters(), &e);
+    need(entry, "measure", !e.measure.empty());
+    need(entry, "what", !e.what.empty());
+    if (e.expected && (e.least || e.most))
+        fail(entry, "has expected and least or most: one or the other");
+    if (e.least && e.most && *e.least > *e.most)
+        fail(entry, "has a least that is above most, which no value meets");
+    if (e.is_judged() && !e.reason.empty())
+        fail(entry, "has bounds and a reason to have none: one or the other");
+    return e;
+}
+
+const std::vector<Parameter>& picture_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
+        {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}};
+    return parameters;
+}
+
+const std::vector<Parameter>& picture_row_parameters() {
+    using Row = ValidationPicture::Row;
+    static const std::vector<Parameter> parameters{
+        {"run", at<&Row::run>, "", {}, "", "drawn"},
+        {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+        {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}};
+    return parameters;
+}
+
+ValidationPicture read_picture(const Entry& entry) {
+    ValidationPicture picture;
+    read_table(entry, picture_parameters(), &picture, {"rows"});
+    need_name(entry, "name", picture.name);
+    for (const Entry& item : tables(entry, "rows")) {
+        ValidationPicture::Row row;
+        read_table(item, picture_row_parameters(), &row);
+        picture.rows.push_back(row);
+    }
+    return picture;
+}
+
+const std::vector<Parameter>& dropped_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"what", at<&DroppedRow::what>, "", {}, "", "row that was"},
+        {"asked", at<&DroppedRow::asked>, "", {}, "", "expected once"},
+        {"reason", at<&DroppedRow::reason>, "", {}, "", "why it is no more"}};
+    return parameters;
+}
+
+DroppedRow read_dropped(const Entry& entry) {
+    DroppedRow row;
+    read_table(entry, dropped_parameters(), &row);
+    need(entry, "what", !row.what.empty());
+    need(entry, "reason", !row.reason.empty());
+    return row;
+}
+
+/// Seeds of a key that may be absent. Throws SceneError.
+std::vector<int> read_seeds(const Entry& entry, const char* key, const std::string& text) {
+    if (text.empty())
+        return {};
+    if (const auto seeds = seed_list(text))
+        return *seeds;
+    fail({*entry.node.as_table()->get(key), entry.path.empty() ? key : entry.path + "." + key},
+         fmt::format("{} is no list of seeds, such as 51-56,60", text));
+}
+
+/// An experiment as the file says it.
+struct ExperimentText {
+    ValidationExperiment experiment;
+    std::string runs, seen_of;
+};
+
+const std::vector<Parameter>& experiment_parameters() {
+    using T = ExperimentText;
+    using X = ValidationExperiment;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&T::experiment, &X::name>, "", {}, "", "for --only"},
+        {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
+        {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
+        {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
+        {"seen_of", at<&T::seen_of>, "", {}, "", "seeds of these pictures"},
+        {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
+        {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
+        {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
+    return parameters;
+}
+
+/// Expectations of an experiment for other runs in the places of its own. Without those that
+/// ask for more runs than there are: a control, say.
+std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
+                                         const std::vector<std::string>& runs) {
+    const auto replace = [&](std::string& name) {
+        const auto place = static_cast<std::size_t>(std::ranges::find(experiment.runs, name) -
+                                                    experiment.runs.begin());
+        if (place < runs.size())
+            name = runs[place];
+        return place < runs.size();
+    };
+    std::vector<Expectation> expectations;
+    for (Expectation e : experiment.expectations)
+        if (replace(e.run) && (e.minus.empty() || replace(e.minus))) {
+            e.is_shared = true;
+            expectations.push_back(std::move(e));
+        }
+    return expectations;
+}
+
+/// @param before         experiments whose expectations this one may share
+/// @param check_measure  refuses a name
+ValidationExperiment
+read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& before,
+                const std::function<void(const Entry&, const std::string&)>& check_measure) {
+    ExperimentText text;
+    read_table(entry, experiment_parameters(), &text, {"expect", "dropped", "picture"});
+    ValidationExperiment& x = text.experiment;
+    x.runs = words(text.runs);
+    x.seen_of = read_seeds(entry, "seen_of", text.seen_of);
+    need(entry, "name", !x.name.empty());
+    need(entry, "runs", !x.runs.empty());
+    if (!x.like.empty()) {
+        const auto other = std::ranges::find(before, x.like, &ValidationExperiment::name);
+        if (other == before.end())
+            fail(entry, fmt::format("like: no experiment {} before this one", x.like));
+        x.expectations = expectations_of(*other, x.runs);
+    }
+    for (const Entry& item : tables(entry, "expect")) {
+        x.expectations.push_back(read_expectation(item));
+        for (const auto& [key, name] : {std::pair{"measure", x.expectations.back().measure},
+                                        std::pair{"over", x.expectations.back().over}})
+            if (!name.empty())
+                check_measure(
+                    {*item.node.as_table()->get(key), fmt::format("{}.{}", item.path, key)}, name);
+        if (x.expectations.back().run.empty())
+            x.expectations.back().run = x.runs.front();
+    }
+    std::ranges::stable_sort(x.expectations, {}, &Expectation::kind);
+    for (const Entry& item : tables(entry, "dropped"))
+        x.dropped.push_back(read_dropped(item));
+    for (const Entry& item : tables(entry, "picture"))
+        x.pictures.push_back(read_picture(item));
+    return x;
+}
+
+/// Names of the effects that any of the runs has.
+std::vector<std::string> effects_of(const ValidationPlan& plan) {
+    std::vector<std::string> names;
+    for (const ValidationRun& run : plan.runs)
+        for (std::string& name :
+             effect_names(load_scene({.scene = run.scene, .set = run.set, .without = run.without})))
+            names.push_back(std::move(name));
+    return names;
+}
+
+/// Refuses a moment at which a run is not measured.
+/// @param what  asks for it, with its verb: "expects weak_fraction"
+void need_moment(const ValidationPlan& plan, const Entry& entry, const std::string& what,
+                 const std::string& run, double at) {
+    const std::vector<double>& moments = plan.run(run).at;
+    if (std::ranges::find(moments, at) == moments.end())
+        fail(entry,
+             fmt::format("{} of {} at {:g} m, where that run is not measured; its at_m: {:g}", what,
+                         run, at, fmt::join(moments, ", ")));
+}
+
+/// A plan's own keys.
+struct ValidationText {
+    std::string extends, seeds;
+};
+
+const std::vector<Parameter>& validation_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"extends", at<&ValidationText::extends>, "", {}, "", "a plan"},
+        {"seeds", at<&ValidationText::seeds>, "", {}, "", "of the record"}};
+    return parameters;
+}
+
+/// @param extended  by another: then it cannot extend a third, or itself
+ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
+    const toml::table document = validation_shelf.read(file);
+    const Entry top{document, ""};
+    ValidationText text;
+    read_table(top, validation_parameters(), &text, {"run", "experiment"});
+    ValidationPlan plan;
+    plan.seeds = read_seeds(top, "seeds", text.seeds);
+    std::vector<ValidationExperiment> known; // that others can be like
+    if (const std::string& other = text.extends; !other.empty()) {
+        if (extended)
+            fail({*document.get("extends"), "extends"}, "is of a plan that is extended itself");
+        known = read_plan(validation_shelf.find(
+                              is_path(other) ? (file.parent_path() / other).string() : other),
+                          true)
+                    .experiments;
+    }
+    int runs = 0;
+    for (const Entry& entry : tables(top, "run")) {
+        plan.runs.push_back(read_run(entry));
+        const std::string& name = plan.runs.back().name;
+        if (std::ranges::count(plan.runs, name, &ValidationRun::name) > 1)
+            fail(entry, fmt::format("name: another run is named {}", name));
+        runs += std::max(1, plan.runs.back().seeds);
+        if (runs > most_runs)
+            fail(entry, fmt::format("is beyond {} runs, the most that a plan may have", most_runs));
+    }
+    const auto check = [&](const Entry& entry, const std::string& name) {
+        std::vector<std::string_view> names;
+        for (const ValidationRun& run : plan.runs)
+            names.push_back(run.name);
+        if (!name.empty() && std::ranges::find(names, name) == names.end())
+            fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
+    };
+    std::optional<std::vector<std::string>> on; // effects of any run
+    const auto check_measure = [&](const Entry& entry, const std::string& name) {
+        if (archive::objection_to_measure(name, true, {}, program_effects()).empty())
+            return;
+        if (!on)
+            on = effects_of(plan);
+        const std::string why = archive::objection_to_measure(name, true, *on, program_effects());
+        if (!why.empty())
+            fail(entry, fmt::format("{} {}", name, why));
+    };
+    const auto check_moments = [&](const Entry& entry, const Expectation& e) {
+        const double at = e.at.value_or(plan.run(e.run).at.back());
+        need_moment(plan, entry, "expects " + e.measure, e.run, at);
+        if (!e.minus.empty())
+            need_moment(plan, entry, "expects " + e.measure, e.minus, at);
+        if (e.since)
+            need_moment(plan, entry, "expects " + e.measure, e.run, *e.since);
+    };
+    for (const Entry& entry : tables(top, "experiment")) {
+        const ValidationExperiment x = read_experiment(entry, known, check_measure);
+        known.push_back(x);
+        plan.experiments.push_back(x);
+        for (const std::string& name : x.runs)
+            check(entry, name);
+        check(entry, x.compare);
+        for (const Expectation& e : x.expectations) {
+            check(entry, e.run);
+            check(entry, e.minus);
+            if (!e.is_shared) // others' runs may be measured elsewhere
+                check_moments(entry, e);
+        }
+        for (const ValidationPicture& picture : x.pictures)
+            for (const auto& row : picture.rows) {
+                need(entry, "run in rows of its pictures", !row.run.empty());
+                check(entry, row.run);
+                need_moment(plan, entry, "has picture " + picture.name, row.run, row.at);
+            }
+    }
+    return plan;
+}
+
+} // namespace
+
+const ValidationRun& ValidationPlan::run(const std::string& name) const {
+    return *std::ranges::find(runs, name, &ValidationRun::name);
+}
+
+ValidationPlan load_validation_plan(const std::filesystem::path& file) {
+    return read_plan(file, false);
+}
+
+std::string validation_schema() {
+    using Json = nlohmann::ordered_json;
+    const auto array_of = [](const char* doc, const std::vector<Parameter>& parameters,
+                             const void* object, Json required) {
+        Json items = table_schema("", parameters, object);
+        if (!required.empty())
+            items["required"] = std::move(required);
+        return Json{{"type", "array"}, {"description", doc}, {"items", items}};
+    };
+    const RunText run;
+    const Expectation expectation;
+    const ValidationPicture picture;
+    const ValidationPicture::Row row;
+    const DroppedRow dropped;
+    const ExperimentText experiment;
+    const ValidationText plan;
+    Json schema = table_schema("", validation_parameters(), &plan);
+    schema["properties"]["run"] =
+        array_of("runs, a folder for each seed", run_parameters(), &run, {"name", "scene", "at_m"});
+    Json experiments = array_of("what is expected of them", experiment_parameters(), &experiment,
+                                {"name", "runs"});
+    Json& parts = experiments["items"]["properties"];
+    parts["expect"] =
+        array_of("rows of the table", expectation_parameters(), &expectation, {"measure", "what"});
+    for (const char* key : {"measure", "over"})
+        parts["expect"]["items"]["properties"][key].update(
+            measure_schema(MeasuredAt::any_snapshot));
+    parts["dropped"] =
+        array_of("rows that are no more", dropped_parameters(), &dropped, {"what", "reason"});
+    parts["picture"] = array_of("pictures of states", picture_parameters(), &picture, {"name"});
+    parts["picture"]["items"]["properties"]["rows"] =
+        array_of("states below each other", picture_row_parameters(), &row, Json::array());
+    schema["properties"]["experiment"] = std::move(experiments);
+    return finished_schema("A validation plan of Listric", schema);
+}
+
+bool Expectation::meets(double value) const {
+    if (expected && std::abs(value - *expected) > tolerance)
+        return false;
+    return !(least && value < *least) && !(most && value > *most);
+}
+
+std::string Expectation::target() const {
+    const auto number = [&](double value) { return fmt::format("{:.{}f}", value, digits); };
+    if (expected)
+        return fmt::format("{} ± {}", number(*expected), number(tolerance));
+    if (least && most)
+        return fmt::format("{} to {}", number(*least), number(*most));
+    if (least)
+        return "at least " + number(*least);
+    if (most)
+        return "at most " + number(*most);
+    return "–";
+}
+
+std::string_view name_of(Expectation::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
+std::string_view name_of(Verdict::Name name) { return verdicts[static_cast<std::size_t>(name)]; }
+
+Verdict judge(const Expectation& e, std::span<const std::optional<double>> values) {
+    using enum Verdict::Name;
+    Verdict v;
+    for (const auto& value : values) {
+        v.of += value.has_value();
+        v.no_case += !value;
+        v.met += value && e.meets(*value);
+    }
+    const ProbabilityLimits limits = probability_limits(v.met, v.of);
+    v.lower = limits.lower;
+    v.upper = limits.upper;
+    const bool often = e.kind == Expectation::Kind::faults;
+    if (values.empty())
+        v.name = no_run;
+    else if (!e.is_judged())
+        v.name = reported;
+    else if (v.of == 0)
+        v.name = no_case;
+    else if (often)
+        v.name = v.lower > 0.5 ? shown : v.upper < 0.5 ? not_shown : open;
+    else
+        v.name = v.met == v.of ? met : missed;
+    v.text = name_of(v.name);
+    if (e.is_judged() && v.of > 0) {
+        v.text += fmt::format(" ({} of {}", v.met, v.of);
+        v.text += often ? fmt::format(": {:.2f} to {:.2f})", v.lower, v.upper) : ")";
+        if (v.no_case > 0)
+            v.text += fmt::format(", {} no case", v.no_case);
+    }
+    return v;
+}
+
+} // namespace listric

@@ -1,0 +1,228 @@
+#include "fluid/pore_fluid.hpp"
+
+#include "dem/contacts/grain_columns.hpp"
+#include "dem/cycle_physics.hpp"
+#include "dem/pushes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace listric::coupling {
+
+using namespace dem;
+
+namespace {
+
+constexpr double greatest_lift = 0.99; ///< of a disc's weight: without any it would fly
+
+/// The columns by cell.
+std::vector<double> gathered(const State& state, const char* column, const PoreCells& cells) {
+    const auto all = state.discs.get<double>(column);
+    std::vector<double> values;
+    values.reserve(cells.count());
+    for (const std::int32_t row : cells.rows)
+        values.push_back(all[static_cast<std::size_t>(row)]);
+    return values;
+}
+
+void scatter(std::span<const double> values, const PoreCells& cells, State& state,
+             const char* column) {
+    const auto all = state.discs.get<double>(column);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        all[static_cast<std::size_t>(cells.rows[k])] = values[k];
+}
+
+[[noreturn]] void refuse(const State& state, const PoreCells& cells, std::size_t cell,
+                         double excess_pressure, double highest) {
+    const ConstDiscColumns d = disc_columns(state);
+    const auto i = static_cast<std::size_t>(cells.rows[cell]);
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "pore fluid: the pressure does not converge at disc %lld (x %.0f m, y %.0f m, "
+                  "excess pressure %.3g Pa, at most %.3g); a smaller pore_fluid.interval_a or a "
+                  "pore_fluid.permeability_m2 nearer to that of mud, 1e-18, may help",
+                  static_cast<long long>(d.id[i]), d.x[i], d.y[i], excess_pressure, highest);
+    throw NumericalFailure(text);
+}
+
+double sum(std::span<const double> values) {
+    double all = 0.0;
+    for (const double value : values)
+        all += value;
+    return all;
+}
+
+} // namespace
+
+double buoyant_share(double fluid_density, double grain_density) {
+    return 1.0 - fluid_density / grain_density;
+}
+
+PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity) {
+    return {sediment.surface_porosity, sediment.porosity_decay,
+            (sediment.grain_density - fluid.density) * gravity, fluid.compressibility,
+            fluid.rebound};
+}
+
+PoreFluid::PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
+                     double extension_rate)
+    : Event("pore_fluid", {fluid.interval, extension_rate}), fluid_(fluid), sediment_(sediment),
+      law_(pore_law(fluid, sediment, gravity)), fluid_weight_(fluid.density * gravity) {
+    for (const char* name : {Sums::came, Sums::surface, Sums::vented, Sums::eroded, Sums::left})
+        memory.add<double>(name, "m^2", 0.0);
+    for (const char* name : {Sums::newton, Sums::capped, Sums::enclosed})
+        memory.add<double>(name, "1", 0.0);
+    memory.add<double>(Sums::fill, "1", 1.0);
+    memory.resize(1);
+}
+
+void PoreFluid::begin(State& state) {
+    state.discs.add<double>("excess_pressure", "Pa", 0.0);
+    state.discs.add<double>("pore_water", "m^2", -1.0);
+    state.discs.add<double>("burial", "m", 0.0);
+    state.discs.add<double>("wanted_porosity", "1", law_.surface_porosity);
+    state.discs.add<double>("overpressure_ratio", "1", 0.0);
+    for (const char* name : {"darcy_x", "darcy_y"})
+        state.discs.add<double>(name, "m/s", 0.0);
+    if (fluid_.pushes)
+        add_pushes(state);
+}
+
+/// Books the water that has come with sediment and gone with it since the last solution.
+void PoreFluid::take_stock(State& state, const PoreCells& cells) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const auto water = state.discs.get<double>("pore_water");
+    const double fresh = law_.surface_porosity / (1.0 - law_.surface_porosity);
+    double known = 0.0, came = 0.0;
+    for (const std::int32_t row : cells.rows) {
+        const auto i = static_cast<std::size_t>(row);
+        if (water[i] >= 0.0) {
+            known += water[i];
+            continue;
+        }
+        water[i] = fresh * d.mass[i] / sediment_.grain_density;
+        came += water[i];
+    }
+    memory.get<double>(Sums::eroded)[0] += remembered(Sums::left) - known;
+    memory.get<double>(Sums::came)[0] += came;
+}
+
+bool PoreFluid::apply(State& state, const RigidBase& base) {
+    const PoreCells cells = pore_cells(state, base, sediment_);
+    take_stock(state, cells);
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const WetGround ground(state, base.motion, sediment_);
+    const std::vector<double> of_discs = grains_above(state, state.discs.get<double>("porosity"));
+    std::vector<double> grains, solid, conductivity; // by cell
+    PressureBounds bounds;
+    std::vector<double> burial = gathered(state, "burial", cells);
+    std::vector<double> porosity = gathered(state, "wanted_porosity", cells);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const auto i = static_cast<std::size_t>(cells.rows[k]);
+        grains.push_back(ground.grains({d.x[i], d.y[i]}, of_discs[i]));
+        solid.push_back(d.mass[i] / sediment_.grain_density);
+        conductivity.push_back(permeability(fluid_.permeability, porosity[k]));
+        bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * grains[k]);
+        bounds.lowest.push_back(-fluid_weight_ *
+                                std::max(0.0, fluid_.level.value_or(0.0) - d.y[i]));
+    }
+    const Storage storage = [&](std::size_t k, double u) {
+        const VoidRatio e = void_ratio(law_, grains[k], burial[k], u);
+        const double swelling = 1.0 + law_.compressibility * u;
+        return Stored{solid[k] * e.value * swelling,
+                      solid[k] * (e.slope * swelling + e.value * law_.compressibility)};
+    };
+    const Bedding beds = bedding(state, cells, fluid_.permeability_ratio);
+    const FlowNetwork network =
+        flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults, beds);
+    std::vector<double> u = gathered(state, "excess_pressure", cells);
+    std::vector<double> water = gathered(state, "pore_water", cells);
+    const FlowOutcome outcome = flow(network, storage, bounds, schedule().seconds(), water, u);
+    if (outcome.stuck)
+        refuse(state, cells, *outcome.stuck, u[*outcome.stuck], bounds.highest[*outcome.stuck]);
+    std::vector<double> ratio;
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        burial[k] = std::max(burial[k], burial_under(law_, grains[k], u[k]));
+        porosity[k] = porosity_at(law_, burial[k]);
+        // At the ground both are next to nothing.
+        const double least =
+            d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - porosity[k]);
+        ratio.push_back(u[k] / (law_.grain_weight * std::max(grains[k], least)));
+    }
+    std::vector<double> darcy_x, darcy_y;
+    const std::vector<Point> gradients = pressure_gradients(cells, u);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const Point drives = beds.flow_of(k, gradients[k]);
+        darcy_x.push_back(-conductivity[k] / fluid_.viscosity * drives.x);
+        darcy_y.push_back(-conductivity[k] / fluid_.viscosity * drives.y);
+    }
+    scatter(darcy_x, cells, state, "darcy_x");
+    scatter(darcy_y, cells, state, "darcy_y");
+    scatter(u, cells, state, "excess_pressure");
+    scatter(water, cells, state, "pore_water");
+    scatter(burial, cells, state, "burial");
+    scatter(porosity, cells, state, "wanted_porosity");
+    scatter(ratio, cells, state, "overpressure_ratio");
+    memory.get<double>(Sums::surface)[0] += outcome.surface;
+    memory.get<double>(Sums::vented)[0] += outcome.vented;
+    memory.get<double>(Sums::left)[0] = sum(water);
+    double& newton = memory.get<double>(Sums::newton)[0];
+    newton = std::max(newton, static_cast<double>(outcome.steps));
+    memory.get<double>(Sums::enclosed)[0] =
+        cells.count() == 0
+            ? 0.0
+            : static_cast<double>(enclosed_cells(network)) / static_cast<double>(cells.count());
+    push(state, cells);
+    return false;
+}
+
+/// Weight in water of what is pending on a cell at the ground, N: it presses on the disc, too, or
+/// the water that it has loaded would lift what it does not yet hold down. Where the stratum comes
+/// at this very moment, its discs press.
+double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
+    const double due = static_cast<double>(applied + 1) * schedule().spacing();
+    constexpr double almost = 1e-6; // of the time between solutions: round-off
+    if (std::abs(std::remainder(due, sediment_.deposition.spacing())) <=
+        almost * schedule().spacing())
+        return 0.0;
+    return (1.0 - law_.surface_porosity) * law_.grain_weight * std::max(0.0, cells.pending[cell]) *
+           cells.surface_lengths[cell];
+}
+
+/// Hands the pressures to the discs as forces.
+void PoreFluid::push(State& state, const PoreCells& cells) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const std::vector<double> porosity = gathered(state, "wanted_porosity", cells);
+    std::vector<double> volume; // of the mud, m^2
+    double cell_area = 0.0;
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const auto i = static_cast<std::size_t>(cells.rows[k]);
+        volume.push_back(d.mass[i] / sediment_.grain_density / (1.0 - porosity[k]));
+        cell_area += cells.faceted.cells[k].area;
+    }
+    memory.get<double>(Sums::fill)[0] = cell_area > 0.0 ? sum(volume) / cell_area : 1.0;
+    if (!fluid_.pushes)
+        return;
+    const std::vector<Point> force =
+        pore_forces(state, cells, volume, gathered(state, "excess_pressure", cells));
+    const auto push_x = state.discs.get<double>("push_x");
+    const auto push_y = state.discs.get<double>("push_y");
+    double capped = 0.0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+        push_x[i] = force[i].x;
+        push_y[i] = force[i].y;
+        if (cells.cell_of[i] < 0)
+            continue;
+        const double load = pending_load(cells, static_cast<std::size_t>(cells.cell_of[i]));
+        const double most = greatest_lift * d.mass[i] / sediment_.grain_density * law_.grain_weight;
+        const bool flies = force[i].y - load > most;
+        capped += flies;
+        push_y[i] = flies ? most : force[i].y - load;
+    }
+    memory.get<double>(Sums::capped)[0] =
+        cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;
+}
+
+} // namespace listric::coupling

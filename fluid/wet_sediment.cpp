@@ -1,0 +1,54 @@
+#include "fluid/wet_sediment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::coupling {
+
+using namespace dem;
+
+namespace {
+
+/// Work at the surface of the interval between two strata that holds a travel, or ends at it.
+SurfaceWork work_at(const Motion& motion, const Schedule& deposition, Travel travel) {
+    constexpr double almost = 1e-2; // of an interval: a moment is a cycle early or late
+    const Travel spacing(deposition.spacing());
+    if (!std::isfinite(spacing.m))
+        return SurfaceWork::none;
+    const Travel end = std::ceil(travel / spacing - almost) * spacing;
+    return motion.surface_work(end - spacing, end);
+}
+
+} // namespace
+
+WetGround::WetGround(const State& state, const Motion& motion, const WetSediment& sediment)
+    : ground_(state),
+      line_(sediment.surface.at(state.clock.travel.m / sediment.deposition.extension_rate)),
+      work_(work_at(motion, sediment.deposition, state.clock.travel)),
+      left_free_(left_free * state.mean_radius), fresh_solid_(1.0 - sediment.surface_porosity) {}
+
+double WetGround::pending(double x) const {
+    const double height = line_.height(x) - left_free_ - ground_.height(x);
+    switch (work_) {
+    case SurfaceWork::both:
+        return height;
+    case SurfaceWork::fill:
+        return std::max(0.0, height);
+    case SurfaceWork::erode:
+        return std::min(0.0, height);
+    case SurfaceWork::none:
+        break;
+    }
+    return 0.0;
+}
+
+double WetGround::grains(Point p, double of_discs) const {
+    const double below_discs = ground_.depth(p), added = pending(p.x);
+    if (below_discs <= 0.0)
+        return fresh_solid_ * std::max(0.0, below_discs + added);
+    if (added >= 0.0)
+        return of_discs + fresh_solid_ * added;
+    return of_discs * std::max(0.0, below_discs + added) / below_discs;
+}
+
+} // namespace listric::coupling
