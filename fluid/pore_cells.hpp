@@ -1,10 +1,10 @@
 #pragma once
 
-#include "fluid/pore_flow.hpp"
-#include "fluid/wet_sediment.hpp"
 #include "dem/base.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/state.hpp"
+#include "fluid/pore_flow.hpp"
+#include "fluid/wet_sediment.hpp"
 
 #include <cstdint>
 #include <span>

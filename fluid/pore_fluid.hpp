@@ -1,9 +1,9 @@
 #pragma once
 
+#include "dem/event.hpp"
 #include "fluid/pore_cells.hpp"
 #include "fluid/pore_law.hpp"
 #include "fluid/wet_sediment.hpp"
-#include "dem/event.hpp"
 
 #include <optional>
 #include <span>

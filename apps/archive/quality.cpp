@@ -1,7 +1,7 @@
 #include "apps/archive/quality.hpp"
 
-#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/folder/summary.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"

@@ -6,8 +6,8 @@
 #include "apps/archive/folder/summary.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,8 +7,8 @@
 #include "apps/scene/parameters/accuracy.hpp"
 #include "apps/studies/sweep/student.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/words/number.hpp"
 #include "apps/support/machine/shell.hpp"
+#include "apps/support/words/number.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 

@@ -4,8 +4,8 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/works.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,8 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/scene/parameters/accuracy.hpp"
-#include "apps/support/machine/cores.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/machine/cores.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"

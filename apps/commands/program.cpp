@@ -4,11 +4,11 @@
 #include "apps/commands/signals.hpp"
 #include "apps/run/ranks/join_ranks.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/version.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
-#include "apps/support/version.hpp"
 #include "dem/cycle/cycle_choice.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "apps/archive/tables/traced_faults.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/measures/faults/moved_points.hpp"
-#include "apps/support/files/csv.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
-#include "apps/archive/tables/headline.hpp"
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/quality.hpp"
 #include "apps/archive/reservations.hpp"
+#include "apps/archive/tables/headline.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
 #include "apps/model/effects.hpp"
@@ -9,8 +9,8 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/process.hpp"
+#include "apps/support/words/log.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/chrono.h>

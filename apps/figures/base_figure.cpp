@@ -8,9 +8,9 @@
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/moment_names.hpp"
 #include "apps/support/files/npy.hpp"
 #include "apps/support/machine/python.hpp"
+#include "apps/support/words/moment_names.hpp"
 #include "dem/contacts/power_cell.hpp"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "apps/archive/folder/provenance.hpp"
 #include "apps/figures/frame.hpp"
 #include "apps/figures/sections/seismic_section.hpp"
-#include "apps/support/machine/memory.hpp"
 #include "apps/support/files/npy.hpp"
+#include "apps/support/machine/memory.hpp"
 #include "apps/support/machine/python.hpp"
 
 #include <fmt/format.h>

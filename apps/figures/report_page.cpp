@@ -1,17 +1,17 @@
 #include "apps/figures/report_page.hpp"
 
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/quality.hpp"
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/tables/headline.hpp"
-#include "apps/archive/folder/json_file.hpp"
-#include "apps/archive/quality.hpp"
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/toml/differences.hpp"
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/toml/differences.hpp"
 #include "apps/support/files/base64.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
@@ -187,7 +187,7 @@ std::string report_html(const ReportPage& page) {
     std::string scripts;
     for (const char* name :
          {"data.js", "colours.js", "painter.js", "section.js", "charts.js", "strata.js",
-           "gestures.js", "tables.js", "files.js", "words.js", "address.js", "page.js"})
+          "gestures.js", "tables.js", "files.js", "words.js", "address.js", "page.js"})
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},

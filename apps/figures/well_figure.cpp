@@ -3,10 +3,10 @@
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
+#include "apps/support/machine/python.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/moment_names.hpp"
 #include "apps/support/words/option_names.hpp"
-#include "apps/support/machine/python.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>

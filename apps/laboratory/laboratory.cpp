@@ -8,8 +8,8 @@
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/python.hpp"
+#include "apps/support/words/log.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 

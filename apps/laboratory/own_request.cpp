@@ -3,9 +3,9 @@
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
+#include "apps/support/version.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/text.hpp"
-#include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 

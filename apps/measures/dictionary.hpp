@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/measures/strata/cohesion.hpp"
 #include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/measures.hpp"
+#include "apps/measures/strata/cohesion.hpp"
 #include "apps/support/measure.hpp"
 
 #include <span>

@@ -1,15 +1,15 @@
 #include "apps/measures/evolution.hpp"
 
-#include "apps/measures/paper/block_edges.hpp"
 #include "apps/measures/basin/dilation.hpp"
+#include "apps/measures/faults/main_faults.hpp"
+#include "apps/measures/paper/block_edges.hpp"
 #include "apps/measures/paper/grabens.hpp"
 #include "apps/measures/paper/hinge.hpp"
 #include "apps/measures/paper/lower_block.hpp"
-#include "apps/measures/faults/main_faults.hpp"
 #include "apps/measures/paper/persistence.hpp"
 #include "apps/measures/paper/relief.hpp"
-#include "apps/measures/strata/rock.hpp"
 #include "apps/measures/paper/syncline.hpp"
+#include "apps/measures/strata/rock.hpp"
 #include "dem/base/just_before.hpp"
 
 namespace listric::measures {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/measures/faults/fault.hpp"
-#include "apps/measures/paper/kink.hpp"
 #include "apps/measures/measures.hpp"
+#include "apps/measures/paper/kink.hpp"
 #include "apps/measures/run_so_far.hpp"
 #include "apps/support/measure.hpp"
 

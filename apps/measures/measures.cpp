@@ -1,10 +1,10 @@
 #include "apps/measures/measures.hpp"
 
+#include "apps/measures/basin/kinematics.hpp"
+#include "apps/measures/basin/profile.hpp"
+#include "apps/measures/faults/localisation.hpp"
 #include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/strata/cohesion.hpp"
-#include "apps/measures/basin/kinematics.hpp"
-#include "apps/measures/faults/localisation.hpp"
-#include "apps/measures/basin/profile.hpp"
 #include "dem/base/just_before.hpp"
 #include "dem/base/place.hpp"
 #include "dem/events/equilibrium.hpp"

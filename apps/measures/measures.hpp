@@ -1,9 +1,9 @@
 #pragma once
 
-#include "apps/measures/faults/broken_rock.hpp"
-#include "apps/measures/strata/cohesion.hpp"
 #include "apps/measures/basin/depocentres.hpp"
+#include "apps/measures/faults/broken_rock.hpp"
 #include "apps/measures/setting.hpp"
+#include "apps/measures/strata/cohesion.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"
 #include "dem/state.hpp"

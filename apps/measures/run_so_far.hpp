@@ -2,8 +2,8 @@
 
 #include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/basin/profile.hpp"
-#include "apps/measures/setting.hpp"
 #include "apps/measures/faults/shear_field.hpp"
+#include "apps/measures/setting.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 

@@ -6,8 +6,8 @@
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/text.hpp"
 #include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>

@@ -8,14 +8,14 @@
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/schema.hpp"
 #include "apps/scene/toml/tables.hpp"
-#include "apps/support/files/base64.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/base64.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/files/picture.hpp"
 #include "apps/support/machine/resources.hpp"
-#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/scene/parameters/effect.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/stop.hpp"
+#include "apps/support/words/log.hpp"
 #include "dem/state.hpp"
 
 #include <filesystem>

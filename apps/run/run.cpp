@@ -1,15 +1,15 @@
 #include "apps/run/run.hpp"
 
 #include "apps/archive/folder/output_folder.hpp"
-#include "apps/archive/tables/rock_record.hpp"
 #include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/tables/rock_record.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/run/forecast/hints.hpp"
 #include "apps/run/forecast/prediction.hpp"
 #include "apps/run/session.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/log.hpp"
 #include "dem/nothing_left.hpp"
 #include "dem/threads/shared_loop.hpp"
 

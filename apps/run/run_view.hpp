@@ -1,14 +1,14 @@
 #pragma once
 
-#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/archive/folder/run_history.hpp"
 #include "apps/archive/snapshot/snapshot.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/faults/fault.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/base_driver.hpp"
+#include "apps/run/forecast/time_left.hpp"
 #include "apps/run/options.hpp"
 #include "apps/run/part.hpp"
-#include "apps/run/forecast/time_left.hpp"
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/picks/rock_line.hpp"
 #include "apps/support/words/log.hpp"

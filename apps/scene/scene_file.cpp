@@ -1,9 +1,9 @@
 #include "apps/scene/scene_file.hpp"
 
-#include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/picks/picks_check.hpp"
-#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/toml/file_names.hpp"
+#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/words/spelling.hpp"
 

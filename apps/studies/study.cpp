@@ -5,8 +5,8 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/python.hpp"
-#include "apps/support/words/spelling.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

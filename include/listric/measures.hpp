@@ -6,6 +6,6 @@
 #include "apps/measures/faults/fault_history.hpp"
 #include "apps/measures/faults/fault_throw.hpp"
 #include "apps/measures/faults/fault_trace.hpp"
-#include "apps/measures/measures.hpp"
 #include "apps/measures/faults/moved_points.hpp"
 #include "apps/measures/faults/shear_field.hpp"
+#include "apps/measures/measures.hpp"

@@ -28,6 +28,7 @@ FLOORS = {
     "apps/model": "the objects a scene asks for; effects, one file each",
     "apps/scene": "what the user writes, read and checked",
     "apps/support": "errors, files, text, statistics",
+    "fluid": "water in the pores of sediment",
     "coupling": "discs on the elastic footwall",
     "fem": "the elastic footwall (plug-in: deal.II, PETSc)",
     "dem": "the hanging wall: discs, contacts, cycle, events",

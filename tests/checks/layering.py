@@ -16,7 +16,8 @@ READER = "apps/python"
 # A room sees those before it.
 APPS = [f"apps/{name}" for name in ("support", "scene", "model", "measures", "archive", "figures",
                                     "run", "laboratory", "studies", "commands")]
-LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "coupling"}}
+LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "coupling"},
+             "fluid": {"dem", "fluid"}}
 
 # Units of the plug-in, which the program loads instead of linking: the only ones on deal.II and
 # PETSc. What else is in fem is the interface, and free of them.
@@ -44,6 +45,7 @@ FOREIGN = {
     "dem": ("immintrin.h", "sched.h", "sys/mman.h"),  # vectors, cores, large pages
     "fem": SYSTEM,
     "coupling": ("Eigen/",),
+    "fluid": ("Eigen/",),
     "apps/measures": (),
     "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
              "pugixml.hpp", "zlib.h", "csv.h"),

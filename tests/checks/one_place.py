@@ -35,8 +35,8 @@ EFFECTS = (
     Effect("gravity", "GravityParameters", trade=True),
     Effect("bonds", "RockBonds", trade=True),
     Effect("fault_weakening", "FaultWeakeningParameters"),
-    Effect("layer", "SceneLayer", own="apps/scene/scene_layer*", trade=True),
-    Effect("old_fault", "OldFault", own="apps/scene/old_fault*"),
+    Effect("layer", "SceneLayer", own="apps/scene/parameters/scene_layer*", trade=True),
+    Effect("old_fault", "OldFault", own="apps/scene/picks/old_fault*"),
     Effect("bond_healing", "BondHealingParameters"),
     Effect("sedimentation", "SedimentationParameters"),
     Effect("pore_fluid", "PoreFluidParameters"),
@@ -47,7 +47,7 @@ EFFECTS = (
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
     Effect("base_motion", "BaseMotionParameters"),
-    Effect("stage", "StageParameters", own="apps/scene/stage*", trade=True),
+    Effect("stage", "StageParameters", own="apps/scene/parameters/stage*", trade=True),
 )
 
 

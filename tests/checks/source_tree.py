@@ -10,7 +10,7 @@ import sys
 from pathlib import Path, PurePosixPath
 
 ROOT = Path(__file__).resolve().parents[2]
-LAYERS = ("dem", "fem", "coupling", "apps")
+LAYERS = ("dem", "fem", "coupling", "fluid", "apps")
 CPP = {".hpp", ".cpp"}
 PYTHON = {".py"}
 PAGE = {".js", ".json"}
@@ -42,7 +42,7 @@ def is_ours(name):
 
 
 def room(path):
-    """`dem`, `fem` or `coupling`; in apps the folder, `apps/measures`, or what lies in none, `apps`."""
+    """`dem`, `fem`, `coupling` or `fluid`; in apps the folder, `apps/measures`, or what lies in none, `apps`."""
     parts = PurePosixPath(path).parts
     return "/".join(parts[:2]) if parts[0] == "apps" and len(parts) > 2 else parts[0]
 

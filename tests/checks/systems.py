@@ -11,7 +11,7 @@ from pathlib import Path
 
 from source_tree import ROOT, report
 
-FILES = ("CMakeLists.txt", "apps/CMakeLists.txt", "coupling/CMakeLists.txt", "cmake/parts/fem.cmake",
+FILES = ("CMakeLists.txt", "apps/CMakeLists.txt", "coupling/CMakeLists.txt", "fluid/CMakeLists.txt", "cmake/parts/fem.cmake",
          "cmake/parts/ranks.cmake")
 ENVIRONMENT, RECIPE = "packaging/environment.yml", "packaging/spack/packages/listric/package.py"
 INSTALL = "docs/install.md"

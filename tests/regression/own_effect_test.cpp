@@ -4,8 +4,8 @@
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/genesis_cache.hpp"
 #include "apps/run/forecast/prediction.hpp"
+#include "apps/run/genesis_cache.hpp"
 #include "tests/regression/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 

@@ -1,9 +1,9 @@
 // Runs from beginning to end: reproducible, resumable after anything, honest about what fails.
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
-#include "apps/archive/snapshot/checksum.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/snapshot/checksum.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/run.hpp"

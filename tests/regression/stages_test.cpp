@@ -1,9 +1,9 @@
 // Motion in stages, [[stage]], on small scenes: the bits are those of one run however it is cut and
 // by however many threads; one stage is what extension.distance_m is; bad stages are refused.
 
-#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/archive/folder/run_folder.hpp"
 #include "apps/archive/folder/setting.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "tests/places.hpp"

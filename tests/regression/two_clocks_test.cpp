@@ -2,9 +2,9 @@
 // another rate, every measure that depends on extension is that of the run without, to the last
 // bit.
 
-#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/folder/run_history.hpp"
 #include "apps/archive/folder/setting.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/measures/evolution.hpp"
 #include "apps/measures/faults/fault_history.hpp"
 #include "tests/scene_runs.hpp"

@@ -1,8 +1,8 @@
 #include "apps/archive/folder/known_errors.hpp"
 
-#include "apps/archive/tables/dictionary.hpp"
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/scene_lines.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/machine/resources.hpp"

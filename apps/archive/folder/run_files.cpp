@@ -279,7 +279,8 @@ std::vector<fs::path> run_files(const fs::path& output) {
     collect(
         output / "figures",
         [&](std::string_view name) {
-            return (name == "caption.txt" || name == "origin.txt") && holds(output / "figures" / name, "Listric ", 1 << 12);
+            return (name == "caption.txt" || name == "origin.txt") &&
+                   holds(output / "figures" / name, "Listric ", 1 << 12);
         },
         files);
     for (const TopFile& top : top_files)

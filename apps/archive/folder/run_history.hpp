@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/archive/folder/run_folder.hpp"
-#include "apps/measures/setting.hpp"
 #include "apps/measures/faults/shear_field.hpp"
+#include "apps/measures/setting.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -3,11 +3,11 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/faults/main_faults.hpp"
 #include "apps/model/measure_names.hpp"
-#include "apps/support/files/csv_records.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv_records.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/number.hpp"
 #include "apps/support/machine/resources.hpp"
+#include "apps/support/words/number.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "apps/archive/folder/summary.hpp"
 
-#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/known_errors.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/faults/main_faults.hpp"
 #include "apps/scene/parameters/stage.hpp"

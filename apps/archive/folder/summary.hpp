@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/archive/folder/json_file.hpp"
-#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/archive/snapshot/snapshot.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/faults/fault.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/support/named_numbers.hpp"

@@ -1,9 +1,9 @@
 #include "apps/archive/tables/burial_history.hpp"
 
-#include "apps/archive/tables/exports.hpp"
 #include "apps/archive/folder/setting.hpp"
-#include "apps/measures/strata/burial.hpp"
+#include "apps/archive/tables/exports.hpp"
 #include "apps/measures/basin/profile.hpp"
+#include "apps/measures/strata/burial.hpp"
 #include "apps/support/fineness.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/archive/tables/line_table.hpp"
 #include "apps/archive/folder/run_folder.hpp"
+#include "apps/archive/tables/line_table.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "apps/archive/tables/dictionary.hpp"
 
-#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/folder/known_errors.hpp"
-#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/archive/folder/summary.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/evolution.hpp"
 #include "apps/measures/faults/main_faults.hpp"

@@ -1,7 +1,7 @@
 #include "apps/archive/tables/exports.hpp"
 
-#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/folder/setting.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/measures/strata/cohesion.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/measures/strata/rock.hpp"

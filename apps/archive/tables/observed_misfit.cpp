@@ -1,7 +1,7 @@
 #include "apps/archive/tables/observed_misfit.hpp"
 
-#include "apps/scene/picks/picked_pieces.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/picks/picked_pieces.hpp"
 
 #include <fmt/format.h>
 

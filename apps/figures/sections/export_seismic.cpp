@@ -4,8 +4,8 @@
 #include "apps/figures/sections/segy.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/npy.hpp"
-#include "apps/support/words/spelling.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 

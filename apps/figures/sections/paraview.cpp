@@ -1,7 +1,7 @@
 #include "apps/figures/sections/paraview.hpp"
 
-#include "apps/figures/vocabulary.hpp"
 #include "apps/figures/sections/vtk_array.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/measures/strata/cohesion.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/error.hpp"

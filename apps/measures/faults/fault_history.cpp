@@ -1,9 +1,9 @@
 #include "apps/measures/faults/fault_history.hpp"
 
 #include "apps/measures/faults/fault_throw.hpp"
+#include "apps/measures/faults/weakened_rock.hpp"
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/measures/strata/rock.hpp"
-#include "apps/measures/faults/weakened_rock.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/cells.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/measures/polyline.hpp"
 #include "apps/measures/faults/shear_field.hpp"
+#include "apps/measures/polyline.hpp"
 #include "dem/events/strain.hpp"
 
 #include <vector>

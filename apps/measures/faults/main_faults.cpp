@@ -93,7 +93,8 @@ constexpr Measure<MainFault> of_main_fault[] = {
      [](F f) -> Value { return f.fault.footwall_turn; }},
     {"_first_traced_m", "m", " fault: first traced at",
      "travel at which the main fault of that attitude was traced for the first time, the first "
-     "part of its `id`: where it changes from one moment to the next, another fault is the main one",
+     "part of its `id`: where it changes from one moment to the next, another fault is the main "
+     "one",
      [](F f) -> Value { return f.fault.name.travel.m; }},
     {"_throw_m", "m", " fault: throw",
      "`greatest_throw_m` of the fault that is the main one of its attitude at that moment; from "

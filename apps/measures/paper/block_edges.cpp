@@ -18,7 +18,8 @@ using namespace dem;
 
 namespace {
 
-// Numbers chosen on made fields (tests/verification/measures/block_edges_test.cpp) and on seeds 1 to 10.
+// Numbers chosen on made fields (tests/verification/measures/block_edges_test.cpp) and on seeds 1
+// to 10.
 constexpr double least_layer = 400.0;   ///< m
 constexpr double layer_diameters = 2.0; ///< or this, if it is more
 constexpr double most_off = 120.0;      ///< discs of a block are off its motion by at most, m

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/faults/fault.hpp"
+#include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/run_so_far.hpp"
 #include "apps/support/measure.hpp"
 

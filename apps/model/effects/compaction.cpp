@@ -1,8 +1,8 @@
 #include "dem/events/compaction.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/toml/pieces.hpp"
 
 namespace listric::effects::compaction {
 

@@ -4,12 +4,12 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "fluid/pore_column.hpp"
 #include "dem/round_off.hpp"
+#include "fluid/pore_column.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/toml/pieces.hpp"
 
 #include <fmt/format.h>
 

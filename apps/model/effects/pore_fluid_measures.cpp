@@ -2,8 +2,8 @@
 
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
-#include "fluid/pore_fluid.hpp"
 #include "dem/events/energy_account.hpp"
+#include "fluid/pore_fluid.hpp"
 
 #include <algorithm>
 #include <cmath>

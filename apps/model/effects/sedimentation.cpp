@@ -3,9 +3,9 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/measure_names.hpp"
-#include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/picks/target_csv.hpp"
+#include "apps/scene/toml/pieces.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
 

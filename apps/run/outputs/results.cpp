@@ -2,8 +2,8 @@
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/measures/basin/profile.hpp"
-#include "apps/run/outputs.hpp"
 #include "apps/run/forecast/prediction.hpp"
+#include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/scene/parameters/accuracy.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "apps/scene/picks/fault_fit.hpp"
 
-#include "apps/support/words/log.hpp"
 #include "apps/support/stopwatch.hpp"
+#include "apps/support/words/log.hpp"
 #include "dem/units.hpp"
 
 #include <Eigen/Dense>

@@ -1,8 +1,8 @@
 #include "apps/scene/picks/observed.hpp"
 
+#include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
-#include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 

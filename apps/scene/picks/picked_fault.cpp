@@ -2,11 +2,11 @@
 
 #include "apps/scene/coordinates.hpp"
 #include "apps/scene/picks/fault_fit.hpp"
-#include "apps/scene/svg/fault_svg.hpp"
 #include "apps/scene/picks/kept_fit.hpp"
+#include "apps/scene/svg/fault_svg.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
-#include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "dem/units.hpp"
 

@@ -1,10 +1,10 @@
 #include "apps/scene/picks/picks_check.hpp"
 #include "apps/scene/coordinates.hpp"
-#include "apps/scene/picks/picked_pieces.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/picks/picked_pieces.hpp"
 
-#include "apps/support/files/csv_records.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv_records.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "apps/scene/picks/rock_line.hpp"
 
-#include "apps/scene/toml/differences.hpp"
 #include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/toml/differences.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/toml.hpp"
 

@@ -1,9 +1,9 @@
 #include "apps/scene/picks/target_csv.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
+#include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
-#include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 

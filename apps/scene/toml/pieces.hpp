@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/scene/parameters/parameter.hpp"
-#include "fluid/pore_law.hpp"
 #include "dem/material.hpp"
+#include "fluid/pore_law.hpp"
 
 // Parameters of what several tables have, or what stands inside a table.
 

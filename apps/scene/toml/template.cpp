@@ -1,7 +1,7 @@
 #include "apps/scene/toml/template.hpp"
 
-#include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/machine/resources.hpp"
 

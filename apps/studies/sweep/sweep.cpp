@@ -19,8 +19,8 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/machine/python.hpp"
-#include "apps/support/words/text.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

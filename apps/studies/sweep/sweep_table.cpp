@@ -1,7 +1,7 @@
 #include "apps/studies/sweep/sweep_table.hpp"
 
-#include "apps/support/files/csv_records.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv_records.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"

@@ -16,10 +16,10 @@
 #include "apps/studies/validation/validation_store.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/python.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "apps/support/version.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,8 +5,8 @@
 #include "apps/scene/toml/schema_parts.hpp"
 #include "apps/scene/toml/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
-#include "apps/support/words/spelling.hpp"
 #include "apps/support/statistics.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,9 +1,9 @@
 #include "apps/support/machine/python.hpp"
 
 #include "apps/support/error.hpp"
-#include "apps/support/words/log.hpp"
 #include "apps/support/machine/process.hpp"
 #include "apps/support/machine/resources.hpp"
+#include "apps/support/words/log.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // Errors of results by recorded runs.
 
-#include "apps/archive/tables/dictionary.hpp"
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/known_errors.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"

@@ -45,9 +45,8 @@ TEST(Quality, AsksEveryQuestionOfAGoodRun) {
     EXPECT_THAT(keys,
                 testing::ElementsAre("quasi_static", "mass_error_fraction", "volume_error_fraction",
                                      "area_balance", "width_diameters", "sediment_stress_ratio"));
-    EXPECT_THAT(values,
-                testing::ElementsAre("unbalanced 0.00096, inertial 0.0006", "error 9e-15",
-                                     "error 0.058 %", "0.981", "2.4 to 3.1", "1.00"));
+    EXPECT_THAT(values, testing::ElementsAre("unbalanced 0.00096, inertial 0.0006", "error 9e-15",
+                                             "error 0.058 %", "0.981", "2.4 to 3.1", "1.00"));
     EXPECT_THAT(bounds,
                 testing::ElementsAre("at most 0.01, 0.002", "below 1e-12", "below 0.1 %",
                                      "0.95 to 1.03", "5 to interpret", "lis1: 0.96 to 1.12"));

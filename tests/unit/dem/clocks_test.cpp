@@ -3,8 +3,8 @@
 
 #include "apps/measures/faults/fault_throw.hpp"
 #include "apps/measures/faults/fault_trace.hpp"
-#include "apps/measures/run_so_far.hpp"
 #include "apps/measures/faults/shear_field.hpp"
+#include "apps/measures/run_so_far.hpp"
 #include "dem/clocks.hpp"
 #include "dem/motion.hpp"
 #include "dem/simulation.hpp"

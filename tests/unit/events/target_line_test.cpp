@@ -2,8 +2,8 @@
 // come from are refused with line, column and cure.
 
 #include "apps/model/effects.hpp"
-#include "apps/scene/scene.hpp"
 #include "apps/scene/picks/target_csv.hpp"
+#include "apps/scene/scene.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "tests/support.hpp"

@@ -2,10 +2,10 @@
 // Piecewise constant densities are exact; the linear one, sampled in n cells, is off by O(1/n^2).
 
 #include "apps/archive/folder/setting.hpp"
-#include "apps/measures/paper/blocks.hpp"
-#include "apps/measures/strata/cohesion.hpp"
 #include "apps/measures/faults/localisation.hpp"
 #include "apps/measures/measures.hpp"
+#include "apps/measures/paper/blocks.hpp"
+#include "apps/measures/strata/cohesion.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "dem/contacts/soft_discs.hpp"

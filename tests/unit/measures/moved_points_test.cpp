@@ -4,8 +4,8 @@
 // quarter of what the points on both sides show.
 
 #include "apps/measures/faults/moved_points.hpp"
-#include "apps/support/files/csv.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

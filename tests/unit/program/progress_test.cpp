@@ -1,7 +1,7 @@
 // The line of progress, and the time that a run has to go: replayed from clocks of real runs.
 
-#include "apps/run/progress_line.hpp"
 #include "apps/run/forecast/time_left.hpp"
+#include "apps/run/progress_line.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/text.hpp"
 #include "tests/places.hpp"

@@ -1,8 +1,8 @@
 // The end of colour scales, and that the vocabulary of the painters is that of the measures.
 
 #include "apps/figures/vocabulary.hpp"
-#include "apps/measures/strata/horizons.hpp"
 #include "apps/measures/faults/rock_behaviour.hpp"
+#include "apps/measures/strata/horizons.hpp"
 
 #include <gmock/gmock.h>
 

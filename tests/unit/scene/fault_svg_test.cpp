@@ -1,8 +1,8 @@
 // Drawings of a fault: what is read, what is refused by name, and fits that are kept.
 
-#include "apps/scene/svg/fault_svg.hpp"
 #include "apps/scene/picks/kept_fit.hpp"
 #include "apps/scene/picks/picked_fault.hpp"
+#include "apps/scene/svg/fault_svg.hpp"
 #include "apps/scene/svg/svg_path.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"

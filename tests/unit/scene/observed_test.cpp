@@ -1,7 +1,7 @@
 // Picked horizons: read, and compared with tops that are known.
 
-#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/archive/folder/setting.hpp"
+#include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/strata/line_misfit.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/picks/picked_pieces.hpp"

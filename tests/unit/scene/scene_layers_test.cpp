@@ -3,8 +3,8 @@
 
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/picks/old_fault.hpp"
 #include "apps/scene/parameters/scene_layer.hpp"
+#include "apps/scene/picks/old_fault.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "dem/events/old_faults.hpp"

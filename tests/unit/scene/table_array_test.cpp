@@ -3,8 +3,8 @@
 
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/toml/differences.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml/differences.hpp"
 #include "apps/scene/toml/schema.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/scene/toml/template.hpp"

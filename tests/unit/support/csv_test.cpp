@@ -1,7 +1,7 @@
 // Tables as spreadsheets, Fortran, old Macs and people write them.
 
-#include "apps/support/files/csv.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

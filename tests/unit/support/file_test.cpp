@@ -1,7 +1,7 @@
 // Files that are written and read where somebody else's lie, and what is said where that fails.
 
-#include "apps/archive/snapshot/hdf5_table.hpp"
 #include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/snapshot/hdf5_table.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/npy.hpp"

@@ -5,11 +5,11 @@
 // next to nothing would wander over the ground. At a ratio of 0.97 one or two still hop there, so
 // that a moment is 4e-3 off and the mean of twelve moments is judged to 2e-3.
 
-#include "fluid/pore_fluid.hpp"
 #include "dem/base/ground_level.hpp"
 #include "dem/contacts/grain_columns.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/pushes.hpp"
+#include "fluid/pore_fluid.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 // Tolerances are twice that: 2 degrees, 0.02 and a diameter. The head block's edge is followed over
 // half the depth only, ten layers at draft, and keeps them.
 
-#include "apps/measures/paper/block_edges.hpp"
 #include "apps/measures/evolution.hpp"
+#include "apps/measures/paper/block_edges.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>
