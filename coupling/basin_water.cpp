@@ -2,6 +2,7 @@
 
 #include "coupling/interface_loads.hpp"
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -48,9 +49,9 @@ std::vector<double> water_depths(const State& state, double level, double column
 std::vector<double> pore_water(const State& state, double level, const PoreSpace& pores,
                                double column_width) {
     const ConstDiscColumns d = disc_columns(state);
-    const bool compacts = state.discs.has("porosity");
+    const bool compacts = state.discs.has(dem::columns::porosity);
     const auto porosity =
-        compacts ? state.discs.get<double>("porosity") : std::span<const double>{};
+        compacts ? state.discs.get(dem::columns::porosity) : std::span<const double>{};
     std::vector<double> water(columns_of(d, column_width), 0.0);
     if (water.empty())
         return water;

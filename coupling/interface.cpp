@@ -1,6 +1,7 @@
 #include "coupling/interface.hpp"
 
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 
@@ -62,7 +63,7 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
     const ConstBaseContactColumns c = base_contact_columns(state);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     const BasePlace place = base_place(state);
-    const auto places = state.base_contacts.get<double>("place");
+    const auto places = state.base_contacts.get(dem::columns::place);
     std::vector<Point> load(nodes.x.size());
     // Resultants of the discs, from the forces on each of them about its centre.
     double fx = 0.0, fy = 0.0, moment = 0.0, power = 0.0;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -28,6 +29,16 @@ struct Column {
     bool is_note = false;
 };
 
+/// What a column is called, its unit and type, and the value of a new row.
+template <class T> struct ColumnName {
+    std::string_view name, unit;
+    T initial;
+
+    constexpr operator std::string_view() const {
+        return name;
+    } // NOLINT(google-explicit-constructor)
+};
+
 /// Columns of equal length. Sorting, growing, saving, resuming and hashing are one loop over
 /// columns each, so memory that an effect keeps in a column is never forgotten by any of them.
 ///
@@ -48,6 +59,14 @@ public:
         return get<T>(name);
     }
 
+    template <class T> std::span<T> add(const ColumnName<T>& column) {
+        return add(column, column.initial);
+    }
+    template <class T>
+    std::span<T> add(const ColumnName<T>& column, std::type_identity_t<T> initial) {
+        return add<T>(column.name, column.unit, initial);
+    }
+
     /// Adds a column that begins as another of its type is, now and in every row that comes. Keeps
     /// the values of one that is already there.
     template <class T>
@@ -61,12 +80,21 @@ public:
         return get<T>(name);
     }
 
+    template <class T>
+    std::span<T> add_like(const ColumnName<T>& column, const ColumnName<T>& other) {
+        return add_like<T>(column.name, column.unit, other.name);
+    }
+
     /// Adds a column that no hash of a state counts, as add() does.
     template <class T>
     std::span<T> add_note(std::string_view name, std::string_view unit, T initial) {
         const std::span<T> values = add<T>(name, unit, initial);
         mark_note(name);
         return values;
+    }
+
+    template <class T> std::span<T> add_note(const ColumnName<T>& column) {
+        return add_note<T>(column.name, column.unit, column.initial);
     }
 
     /// Marks a column as one that no hash of a state counts.
@@ -87,6 +115,11 @@ public:
     }
     template <class T> std::span<const T> get(std::string_view name) const {
         return std::get<std::vector<T>>(require(name).values);
+    }
+
+    template <class T> std::span<T> get(const ColumnName<T>& column) { return get<T>(column.name); }
+    template <class T> std::span<const T> get(const ColumnName<T>& column) const {
+        return get<T>(column.name);
     }
 
     void remove(std::string_view name);

@@ -1,5 +1,6 @@
 #include "dem/cycle_physics.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace listric::dem {
 
 void add_mean_velocities(State& state) {
-    for (const char* name : {"mean_vx", "mean_vy"})
-        state.discs.add<float>(name, "m/s", 0.0f);
+    state.discs.add(columns::mean_vx);
+    state.discs.add(columns::mean_vy);
 }
 
 void refuse_runaways(const State& state) {

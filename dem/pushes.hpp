@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/columns.hpp"
 #include "dem/point.hpp"
 #include "dem/state.hpp"
 
@@ -9,16 +10,19 @@ namespace listric::dem {
 
 /// Gives discs a constant force beside their weight: columns `push_x` and `push_y`, N, for events
 /// to set. Cycles start the sum of a disc's forces with it.
-void add_pushes(State& state);
+inline void add_pushes(State& state) {
+    state.discs.add(columns::push_x);
+    state.discs.add(columns::push_y);
+}
 
 /// The columns of add_pushes(), or no force where there are none.
 class Pushes {
 public:
     explicit Pushes(const State& state) {
-        if (!state.discs.has("push_x"))
+        if (!state.discs.has(columns::push_x))
             return;
-        x_ = state.discs.get<double>("push_x");
-        y_ = state.discs.get<double>("push_y");
+        x_ = state.discs.get(columns::push_x);
+        y_ = state.discs.get(columns::push_y);
     }
 
     bool any() const { return !x_.empty(); }

@@ -1,5 +1,6 @@
 #include "dem/state.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/hash.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -15,84 +16,70 @@ namespace listric::dem {
 State empty_state() {
     State state;
     Table& discs = state.discs;
-    discs.add<std::int64_t>("id", "1", -1);
-    for (const char* name : {"x", "y"})
-        discs.add<double>(name, "m", 0.0);
-    for (const char* name : {"vx", "vy"})
-        discs.add<double>(name, "m/s", 0.0);
-    discs.add<double>("rotation", "rad", 0.0);
-    discs.add<double>("spin", "rad/s", 0.0);
-    discs.add<double>("radius", "m", 0.0);
-    discs.add<double>("mass", "kg", 0.0);
-    discs.add<std::uint8_t>("material", "1", basement);
-    discs.add<std::int32_t>("stratum", "1", 0);
-    for (const char* name : {"start_x", "start_y", "start_travel", "searched_x", "searched_y"})
-        discs.add<double>(name, "m", 0.0);
+    discs.add(columns::id);
+    discs.add(columns::x);
+    discs.add(columns::y);
+    discs.add(columns::vx);
+    discs.add(columns::vy);
+    discs.add(columns::rotation);
+    discs.add(columns::spin);
+    discs.add(columns::radius);
+    discs.add(columns::mass);
+    discs.add(columns::material);
+    discs.add(columns::stratum);
+    discs.add(columns::start_x);
+    discs.add(columns::start_y);
+    discs.add(columns::start_travel);
+    discs.add(columns::searched_x);
+    discs.add(columns::searched_y);
 
     Table& contacts = state.contacts;
-    contacts.add<std::int32_t>("first", "1", -1);
-    contacts.add<std::int32_t>("second", "1", -1);
-    contacts.add<double>("shear_force", "N", 0.0);
-    contacts.add<std::uint8_t>("bonded", "1", 0);
-    contacts.add<float>("tensile_strength", "N", 0.0f);
-    contacts.add<float>("shear_strength", "N", 0.0f);
+    contacts.add(columns::first);
+    contacts.add(columns::second);
+    contacts.add(columns::shear_force);
+    contacts.add(columns::bonded);
+    contacts.add(columns::tensile_strength);
+    contacts.add(columns::shear_strength);
 
-    state.base_contacts.add<std::int32_t>("disc", "1", -1);
-    state.base_contacts.add<std::int32_t>("surface", "1", -1);
-    state.base_contacts.add<double>("shear_force", "N", 0.0);
+    state.base_contacts.add(columns::disc);
+    state.base_contacts.add(columns::surface);
+    state.base_contacts.add(columns::shear_force);
     return state;
 }
 
 namespace {
 
 template <class Columns, class AnyTable> Columns discs_of(AnyTable& t) {
-    const auto number = [&](const char* name) { return t.template get<double>(name); };
-    const auto entry = [&]<class T>(const char* name, T) {
-        return t.has(name) ? t.template get<T>(name) : decltype(t.template get<T>(name))();
+    const auto entry = [&](const auto& column) {
+        return t.has(column) ? t.get(column) : decltype(t.get(column))();
     };
-    return {entry("id", std::int64_t()),
-            number("x"),
-            number("y"),
-            number("vx"),
-            number("vy"),
-            number("rotation"),
-            number("spin"),
-            number("radius"),
-            number("mass"),
-            t.template get<std::uint8_t>("material"),
-            entry("stratum", std::int32_t()),
-            entry("start_x", double()),
-            entry("start_y", double()),
-            entry("start_travel", double()),
-            number("searched_x"),
-            number("searched_y")};
+    return {entry(columns::id),         t.get(columns::x),
+            t.get(columns::y),          t.get(columns::vx),
+            t.get(columns::vy),         t.get(columns::rotation),
+            t.get(columns::spin),       t.get(columns::radius),
+            t.get(columns::mass),       t.get(columns::material),
+            entry(columns::stratum),    entry(columns::start_x),
+            entry(columns::start_y),    entry(columns::start_travel),
+            t.get(columns::searched_x), t.get(columns::searched_y)};
 }
 
 template <class Columns, class AnyTable> Columns contacts_of(AnyTable& t) {
-    return {t.template get<std::int32_t>("first"),     t.template get<std::int32_t>("second"),
-            t.template get<double>("shear_force"),     t.template get<std::uint8_t>("bonded"),
-            t.template get<float>("tensile_strength"), t.template get<float>("shear_strength")};
+    return {
+        t.get(columns::first),  t.get(columns::second),           t.get(columns::shear_force),
+        t.get(columns::bonded), t.get(columns::tensile_strength), t.get(columns::shear_strength)};
 }
 
 template <class Columns, class AnyTable> Columns base_contacts_of(AnyTable& t) {
-    return {t.template get<std::int32_t>("disc"), t.template get<std::int32_t>("surface"),
-            t.template get<double>("shear_force")};
+    return {t.get(columns::disc), t.get(columns::surface), t.get(columns::shear_force)};
 }
 
 template <class Columns, class AnyTable> Columns base_nodes_of(AnyTable& t) {
     if (t.rows() == 0)
         return {};
-    const auto get = [&](const char* name) { return t.template get<double>(name); };
-    return {get("x"),
-            get("y"),
-            get("ux"),
-            get("uy"),
-            get("vx"),
-            get("vy"),
-            t.template get<std::int64_t>("load_x"),
-            t.template get<std::int64_t>("load_y"),
-            get("searched_ux"),
-            get("searched_uy")};
+    return {t.get(columns::x),          t.get(columns::y),      t.get(columns::ux),
+            t.get(columns::uy),         t.get(columns::vx),     t.get(columns::vy),
+            t.get(columns::load_x),     t.get(columns::load_y), t.get(columns::searched_ux),
+            t.get(columns::searched_uy)};
 }
 
 } // namespace
@@ -120,23 +107,22 @@ void add_base_nodes(State& state, std::span<const double> x, std::span<const dou
     Table& nodes = state.base_nodes;
     nodes = {};
     nodes.resize(x.size());
-    for (const char* name : {"x", "y", "ux", "uy"})
-        nodes.add<double>(name, "m", 0.0);
-    for (const char* name : {"vx", "vy"})
-        nodes.add<double>(name, "m/s", 0.0);
-    for (const char* name : {"load_x", "load_y"})
-        nodes.add<std::int64_t>(name, "2^-10 N", 0);
-    for (const char* name : {"searched_ux", "searched_uy"})
-        nodes.add<double>(name, "m", 0.0);
-    std::ranges::copy(x, nodes.get<double>("x").begin());
-    std::ranges::copy(y, nodes.get<double>("y").begin());
-    state.base_contacts.add<double>("place", "1", -1.0);
+    using namespace columns;
+    for (const ColumnName<double>& column : {columns::x, columns::y, ux, uy, vx, vy})
+        nodes.add(column);
+    nodes.add(load_x);
+    nodes.add(load_y);
+    nodes.add(searched_ux);
+    nodes.add(searched_uy);
+    std::ranges::copy(x, nodes.get(columns::x).begin());
+    std::ranges::copy(y, nodes.get(columns::y).begin());
+    state.base_contacts.add(columns::place);
 }
 
 std::size_t add_discs(State& state, std::size_t count) {
     const std::size_t first = state.discs.rows();
     state.discs.resize(first + count);
-    for (std::int64_t& id : state.discs.get<std::int64_t>("id").subspan(first))
+    for (std::int64_t& id : state.discs.get(columns::id).subspan(first))
         id = state.next_id++;
     return first;
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 using namespace dem;
 
@@ -285,4 +285,4 @@ std::vector<Point> pore_forces(const State& state, const PoreCells& cells,
     return force;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 // Wet discs, which are those of sediment, as cells of a fluid's flow: power cells, on whose facets
 // a difference of two pressures gives flow and force exactly where pressure is linear. Rock is at
@@ -78,4 +78,4 @@ std::vector<dem::Point> pore_forces(const dem::State& state, const PoreCells& ce
                                     std::span<const double> volume,
                                     std::span<const double> excess_pressure);
 
-} // namespace listric::coupling
+} // namespace listric::fluid

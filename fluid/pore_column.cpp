@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 namespace {
 
@@ -165,4 +165,4 @@ double gibson_number(const MudColumn& column, double rate, double time) {
     return rate * rate * time / consolidation;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 /// A column of mud on a floor that sinks, filled up to a fixed level with fresh mud in every step:
 /// finite volumes by layers of a step, with the laws and the solver of PoreFluid. What a section of
@@ -66,4 +66,4 @@ inline constexpr double gibson_at_rest = 0.1, gibson_undrained = 100.0;
 /// hydrostatic, far above 1 mud is undrained.
 double gibson_number(const MudColumn& column, double rate, double time);
 
-} // namespace listric::coupling
+} // namespace listric::fluid

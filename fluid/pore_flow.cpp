@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 namespace {
 
@@ -238,4 +238,4 @@ FlowOutcome flow(const FlowNetwork& network, const Storage& storage, const Press
     return outcome;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

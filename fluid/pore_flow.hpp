@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 // Flow of pore water through geological time: implicit Euler for the water of every cell,
 //
@@ -60,4 +60,4 @@ struct FlowOutcome {
 FlowOutcome flow(const FlowNetwork& network, const Storage& storage, const PressureBounds& bounds,
                  double seconds, std::span<double> water, std::span<double> excess_pressure);
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -1,15 +1,18 @@
 #include "fluid/pore_fluid.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
 #include "dem/cycle_physics.hpp"
 #include "dem/pushes.hpp"
+#include "fluid/columns.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 using namespace dem;
 
@@ -18,7 +21,7 @@ namespace {
 constexpr double greatest_lift = 0.99; ///< of a disc's weight: without any it would fly
 
 /// The columns by cell.
-std::vector<double> gathered(const State& state, const char* column, const PoreCells& cells) {
+std::vector<double> gathered(const State& state, std::string_view column, const PoreCells& cells) {
     const auto all = state.discs.get<double>(column);
     std::vector<double> values;
     values.reserve(cells.count());
@@ -28,7 +31,7 @@ std::vector<double> gathered(const State& state, const char* column, const PoreC
 }
 
 void scatter(std::span<const double> values, const PoreCells& cells, State& state,
-             const char* column) {
+             std::string_view column) {
     const auto all = state.discs.get<double>(column);
     for (std::size_t k = 0; k < values.size(); ++k)
         all[static_cast<std::size_t>(cells.rows[k])] = values[k];
@@ -79,13 +82,13 @@ PoreFluid::PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sedime
 }
 
 void PoreFluid::begin(State& state) {
-    state.discs.add<double>("excess_pressure", "Pa", 0.0);
-    state.discs.add<double>("pore_water", "m^2", -1.0);
-    state.discs.add<double>("burial", "m", 0.0);
-    state.discs.add<double>("wanted_porosity", "1", law_.surface_porosity);
-    state.discs.add<double>("overpressure_ratio", "1", 0.0);
-    for (const char* name : {"darcy_x", "darcy_y"})
-        state.discs.add<double>(name, "m/s", 0.0);
+    state.discs.add(dem::columns::excess_pressure);
+    state.discs.add(columns::pore_water);
+    state.discs.add(columns::burial);
+    state.discs.add(dem::columns::wanted_porosity, law_.surface_porosity);
+    state.discs.add(columns::overpressure_ratio);
+    state.discs.add(columns::darcy_x);
+    state.discs.add(columns::darcy_y);
     if (fluid_.pushes)
         add_pushes(state);
 }
@@ -93,7 +96,7 @@ void PoreFluid::begin(State& state) {
 /// Books the water that has come with sediment and gone with it since the last solution.
 void PoreFluid::take_stock(State& state, const PoreCells& cells) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
-    const auto water = state.discs.get<double>("pore_water");
+    const auto water = state.discs.get(columns::pore_water);
     const double fresh = law_.surface_porosity / (1.0 - law_.surface_porosity);
     double known = 0.0, came = 0.0;
     for (const std::int32_t row : cells.rows) {
@@ -114,11 +117,12 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     take_stock(state, cells);
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const WetGround ground(state, base.motion, sediment_);
-    const std::vector<double> of_discs = grains_above(state, state.discs.get<double>("porosity"));
+    const std::vector<double> of_discs =
+        grains_above(state, state.discs.get(dem::columns::porosity));
     std::vector<double> grains, solid, conductivity; // by cell
     PressureBounds bounds;
-    std::vector<double> burial = gathered(state, "burial", cells);
-    std::vector<double> porosity = gathered(state, "wanted_porosity", cells);
+    std::vector<double> burial = gathered(state, columns::burial, cells);
+    std::vector<double> porosity = gathered(state, dem::columns::wanted_porosity, cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
         grains.push_back(ground.grains({d.x[i], d.y[i]}, of_discs[i]));
@@ -137,8 +141,8 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     const Bedding beds = bedding(state, cells, fluid_.permeability_ratio);
     const FlowNetwork network =
         flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults, beds);
-    std::vector<double> u = gathered(state, "excess_pressure", cells);
-    std::vector<double> water = gathered(state, "pore_water", cells);
+    std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
+    std::vector<double> water = gathered(state, columns::pore_water, cells);
     const FlowOutcome outcome = flow(network, storage, bounds, schedule().seconds(), water, u);
     if (outcome.stuck)
         refuse(state, cells, *outcome.stuck, u[*outcome.stuck], bounds.highest[*outcome.stuck]);
@@ -158,13 +162,13 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         darcy_x.push_back(-conductivity[k] / fluid_.viscosity * drives.x);
         darcy_y.push_back(-conductivity[k] / fluid_.viscosity * drives.y);
     }
-    scatter(darcy_x, cells, state, "darcy_x");
-    scatter(darcy_y, cells, state, "darcy_y");
-    scatter(u, cells, state, "excess_pressure");
-    scatter(water, cells, state, "pore_water");
-    scatter(burial, cells, state, "burial");
-    scatter(porosity, cells, state, "wanted_porosity");
-    scatter(ratio, cells, state, "overpressure_ratio");
+    scatter(darcy_x, cells, state, columns::darcy_x);
+    scatter(darcy_y, cells, state, columns::darcy_y);
+    scatter(u, cells, state, dem::columns::excess_pressure);
+    scatter(water, cells, state, columns::pore_water);
+    scatter(burial, cells, state, columns::burial);
+    scatter(porosity, cells, state, dem::columns::wanted_porosity);
+    scatter(ratio, cells, state, columns::overpressure_ratio);
     memory.get<double>(Sums::surface)[0] += outcome.surface;
     memory.get<double>(Sums::vented)[0] += outcome.vented;
     memory.get<double>(Sums::left)[0] = sum(water);
@@ -194,7 +198,7 @@ double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
 /// Hands the pressures to the discs as forces.
 void PoreFluid::push(State& state, const PoreCells& cells) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
-    const std::vector<double> porosity = gathered(state, "wanted_porosity", cells);
+    const std::vector<double> porosity = gathered(state, dem::columns::wanted_porosity, cells);
     std::vector<double> volume; // of the mud, m^2
     double cell_area = 0.0;
     for (std::size_t k = 0; k < cells.count(); ++k) {
@@ -206,9 +210,9 @@ void PoreFluid::push(State& state, const PoreCells& cells) {
     if (!fluid_.pushes)
         return;
     const std::vector<Point> force =
-        pore_forces(state, cells, volume, gathered(state, "excess_pressure", cells));
-    const auto push_x = state.discs.get<double>("push_x");
-    const auto push_y = state.discs.get<double>("push_y");
+        pore_forces(state, cells, volume, gathered(state, dem::columns::excess_pressure, cells));
+    const auto push_x = state.discs.get(dem::columns::push_x);
+    const auto push_y = state.discs.get(dem::columns::push_y);
     double capped = 0.0;
     for (std::size_t i = 0; i < force.size(); ++i) {
         push_x[i] = force[i].x;
@@ -225,4 +229,4 @@ void PoreFluid::push(State& state, const PoreCells& cells) {
         cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 /// Water in the pores of sediment: flow through geological time, with the compaction that goes with
 /// it, and forces on the discs. Excess pressure u is pressure over that of water at rest, whose
@@ -83,4 +83,4 @@ private:
     double fluid_weight_; ///< N/m^3
 };
 
-} // namespace listric::coupling
+} // namespace listric::fluid

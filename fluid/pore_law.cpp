@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 namespace {
 
@@ -75,4 +75,4 @@ VoidRatio void_ratio(const PoreLaw& law, double grains, double burial, double ex
     return {least + law.rebound * (e.value - least), law.rebound * e.slope};
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 // Mud as a function of what has pressed it. Its state is the void ratio e = phi / (1 - phi), pores
 // over grains, so that grains, which are kept, count once.
@@ -54,4 +54,4 @@ VoidRatio void_ratio(const PoreLaw& law, double grains, double burial, double ex
 /// Equivalent depth under grains and excess pressure, m.
 double burial_under(const PoreLaw& law, double grains, double excess_pressure);
 
-} // namespace listric::coupling
+} // namespace listric::fluid

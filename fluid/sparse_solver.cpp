@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 namespace {
 
@@ -71,4 +71,4 @@ bool SparseSolver::solve(std::span<const double> diagonal, std::span<const doubl
     return true;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 /// Place of an entry below the diagonal of a symmetric matrix, or above it.
 struct MatrixEntry {
@@ -32,4 +32,4 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 using namespace dem;
 
@@ -51,4 +51,4 @@ double WetGround::grains(Point p, double of_discs) const {
     return of_discs * std::max(0.0, below_discs + added) / below_discs;
 }
 
-} // namespace listric::coupling
+} // namespace listric::fluid

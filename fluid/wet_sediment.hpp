@@ -4,7 +4,7 @@
 #include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
 
-namespace listric::coupling {
+namespace listric::fluid {
 
 /// Facts of sediment that the fluid needs.
 struct WetSediment {
@@ -46,4 +46,4 @@ private:
     double fresh_solid_;    ///< share of grains in what is laid down
 };
 
-} // namespace listric::coupling
+} // namespace listric::fluid

@@ -19,6 +19,7 @@
 #include "apps/support/words/option_names.hpp"
 #include "dem/base/just_before.hpp"
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
@@ -87,8 +88,8 @@ void write_discs(const FrameWriter& writer, const State& state) {
     for (const double y : d.start_y)
         depth.push_back(-y);
     writer.array("discs_start_depth", depth);
-    if (state.discs.has("layer")) {
-        const auto layer = state.discs.get<std::uint8_t>("layer");
+    if (state.discs.has(dem::columns::layer)) {
+        const auto layer = state.discs.get(dem::columns::layer);
         const std::vector<std::int32_t> numbers(layer.begin(), layer.end());
         writer.array("discs_layer", std::span<const std::int32_t>(numbers));
     }

@@ -17,6 +17,7 @@
 #include "apps/support/files/deflate.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/fineness.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
@@ -356,8 +357,8 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
     for (auto& [name, values] : strains_of(now))
         add_scaled(name, std::move(values), strain_scale_end);
-    if (state.discs.has("layer")) {
-        const auto layer = state.discs.get<std::uint8_t>("layer");
+    if (state.discs.has(dem::columns::layer)) {
+        const auto layer = state.discs.get(dem::columns::layer);
         add("layer", [layer](std::size_t i) { return layer[i]; });
     }
     for (const FigureLayer& layer : figure_layers(now.scene))

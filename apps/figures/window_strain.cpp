@@ -1,5 +1,6 @@
 #include "apps/figures/window_strain.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/events/strain.hpp"
 
 #include <cstddef>
@@ -36,7 +37,7 @@ bool has_ended_a_window(const Observation& now) {
 }
 
 std::vector<double> with_zeros(const Observation& now) {
-    return has_ended_a_window(now) ? column(now, "window_strain").value()
+    return has_ended_a_window(now) ? column(now, dem::columns::window_strain).value()
                                    : dem::shear_strain(now.state);
 }
 
@@ -55,7 +56,8 @@ std::vector<double> window_strain(const Observation& now) {
 
 Values window_tectonic_strain(const Observation& now) {
     Values values = has_ended_a_window(now)
-                        ? tectonic_column(now, "window_tectonic_strain", "window_strain")
+                        ? tectonic_column(now, dem::columns::window_tectonic_strain,
+                                          dem::columns::window_strain)
                         : dem::tectonic_strain(now.state);
     if (values)
         forget_young(now, with_zeros(now), *values);
@@ -64,13 +66,13 @@ Values window_tectonic_strain(const Observation& now) {
 
 std::map<std::string, std::vector<double>> strains_of(const Observation& now) {
     std::map<std::string, std::vector<double>> strains{{"window_strain", window_strain(now)}};
-    if (auto total = column(now, "total_strain"))
+    if (auto total = column(now, dem::columns::total_strain))
         strains["total_strain"] = std::move(*total);
     if (settling_of(now.scene).empty())
         return strains;
     if (auto window = window_tectonic_strain(now))
         strains["window_tectonic_strain"] = std::move(*window);
-    if (auto total = column(now, "total_tectonic_strain"))
+    if (auto total = column(now, dem::columns::total_tectonic_strain))
         strains["total_tectonic_strain"] = std::move(*total);
     return strains;
 }

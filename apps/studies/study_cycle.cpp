@@ -5,6 +5,7 @@
 
 #include "apps/measures/dictionary.hpp"
 #include "apps/support/stopwatch.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/hypotenuse.hpp"
@@ -182,7 +183,7 @@ StudyPoint squeeze(const Squeeze& s, double at_rest, double safety, double mass)
     State state = s.block(base);
     const double own = disc_columns(state).mass[0];
     state.inertial_mass_floor = mass * own;
-    for (double& m : state.discs.get<double>("mass"))
+    for (double& m : state.discs.get(dem::columns::mass))
         m = std::min(m, mass * own); // lighter discs have no weight here that would be lost
     const double limit = stable_time_step(mass * own, s.material, 0.7, 1.0);
     const auto cycles = static_cast<std::int64_t>(std::ceil(Squeeze::time / (safety * limit)));
@@ -285,7 +286,7 @@ StudyResult study_precision(const StudyRequest& request) {
         const Rounding roundings[] = {
             {"double", [](State&) {}},
             {"velocities single",
-             [](State& state) { round_to_float(state.discs.get<double>("vx")); }},
+             [](State& state) { round_to_float(state.discs.get(dem::columns::vx)); }},
             {"displacements single",
              [](State& state) {
                  const DiscColumns d = disc_columns(state);
@@ -293,7 +294,8 @@ StudyResult study_precision(const StudyRequest& request) {
                      d.x[i] = d.start_x[i] +
                               static_cast<double>(static_cast<float>(d.x[i] - d.start_x[i]));
              }},
-            {"places single", [](State& state) { round_to_float(state.discs.get<double>("x")); }},
+            {"places single",
+             [](State& state) { round_to_float(state.discs.get(dem::columns::x)); }},
         };
         for (const Rounding& rounding : roundings)
             for (double safety : {0.8, 0.4, 0.2, 0.1, 0.05})

@@ -1,6 +1,7 @@
 #include "dem/contacts/contacts.hpp"
 
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/cycle_physics.hpp"
 #include "dem/hypotenuse.hpp"
@@ -49,10 +50,11 @@ struct Merged {
 /// pair. A found pair that was listed before keeps its columns, others start afresh. Returns
 /// whether anything changed.
 template <class Keeps>
-bool merge(Table& table, const char* first_name, const char* second_name,
-           std::span<const Pair> found, Keeps&& keeps) {
-    const auto first = table.get<std::int32_t>(first_name);
-    const auto second = table.get<std::int32_t>(second_name);
+bool merge(Table& table, const ColumnName<std::int32_t>& first_name,
+           const ColumnName<std::int32_t>& second_name, std::span<const Pair> found,
+           Keeps&& keeps) {
+    const auto first = table.get(first_name);
+    const auto second = table.get(second_name);
     const auto pair_of = [&](std::size_t k) { return Pair{first[k], second[k]}; };
     const auto new_row = static_cast<std::int32_t>(first.size());
     auto pieces = by_piece(first.size(), 4096, [&](std::size_t row, std::size_t end) {
@@ -83,8 +85,8 @@ bool merge(Table& table, const char* first_name, const char* second_name,
     if (added.empty() && rows.size() == first.size())
         return false;
     table.reorder(rows);
-    const auto new_first = table.get<std::int32_t>(first_name);
-    const auto new_second = table.get<std::int32_t>(second_name);
+    const auto new_first = table.get(first_name);
+    const auto new_second = table.get(second_name);
     auto pair = added.begin();
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k] == new_row) {
@@ -182,7 +184,7 @@ std::vector<std::vector<Pair>> pairs_near(const State& state, const Searched& se
 bool find_disc_contacts(State& state, const Searched& searched) {
     const std::vector<Pair> found = sorted(pairs_near(state, searched), state.discs.rows());
     const ConstContactColumns c = contact_columns(std::as_const(state));
-    return merge(state.contacts, "first", "second", found, [&](std::size_t k) {
+    return merge(state.contacts, columns::first, columns::second, found, [&](std::size_t k) {
         return c.bonded[k] || !(searched.flags[static_cast<std::size_t>(c.first[k])] ||
                                 searched.flags[static_cast<std::size_t>(c.second[k])]);
     });
@@ -215,7 +217,7 @@ bool find_base_contacts(State& state, const RigidBase& base, const Searched& sea
     };
     const std::vector<Pair> found = joined(by_piece(searched.rows.size(), 512, find));
     const ConstBaseContactColumns c = base_contact_columns(std::as_const(state));
-    return merge(state.base_contacts, "disc", "surface", found, [&](std::size_t k) {
+    return merge(state.base_contacts, columns::disc, columns::surface, found, [&](std::size_t k) {
         return !searched.flags[static_cast<std::size_t>(c.disc[k])];
     });
 }

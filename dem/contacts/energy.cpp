@@ -1,6 +1,7 @@
 #include "dem/contacts/energy.hpp"
 
 #include "dem/base/contact.hpp"
+#include "dem/columns.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
@@ -85,7 +86,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
                                uy_before};
         std::optional<BaseContactMotion> motion;
         if (before.deforms(surface)) {
-            double place = state.base_contacts.get<double>("place")[k];
+            double place = state.base_contacts.get(columns::place)[k];
             motion = surface_motion(
                 surface, node_contact_motion(surface, nodes, clock.extension.m, disc, place),
                 {clock.extension.m, speed}, disc);

@@ -1,6 +1,7 @@
 #include "dem/contacts/power_cell.hpp"
 
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -91,8 +92,8 @@ double reach_of(const State& state) { return 5.0 * state.mean_radius; }
 std::vector<double> rock_radii(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<double> radius(d.radius.begin(), d.radius.end());
-    if (state.discs.has("rock_radius")) {
-        const auto rock = state.discs.get<double>("rock_radius");
+    if (state.discs.has(columns::rock_radius)) {
+        const auto rock = state.discs.get(columns::rock_radius);
         for (std::size_t i = 0; i < radius.size(); ++i)
             if (rock[i] > 0.0)
                 radius[i] = rock[i];

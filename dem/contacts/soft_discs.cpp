@@ -1,5 +1,6 @@
 #include "dem/contacts/soft_discs.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
@@ -30,14 +31,14 @@ std::vector<std::int32_t> soft_rows(const State& state) {
 }
 
 void add_enlarged_columns(State& state) {
-    state.discs.add<double>("rock_radius", "m", 0.0);
-    state.discs.add<double>("rock_area", "m^2", 0.0);
+    state.discs.add(columns::rock_radius);
+    state.discs.add(columns::rock_area);
     state.discs.add<double>("correction", "1", 1.0);
 }
 
 EnlargedColumns enlarged_columns(State& state) {
     Table& t = state.discs;
-    return {t.get<double>("rock_radius"), t.get<double>("rock_area"), t.get<double>("correction")};
+    return {t.get(columns::rock_radius), t.get(columns::rock_area), t.get<double>("correction")};
 }
 
 void enlarge(State& state, const RigidBase& base, std::span<const std::int32_t> rows,
@@ -89,9 +90,9 @@ std::vector<double> overburden(const State& state, std::span<const std::int32_t>
     sort_shared(std::span(by_x), [&](std::size_t a, std::size_t b) {
         return d.x[a] != d.x[b] ? d.x[a] < d.x[b] : a < b;
     });
-    const bool wet = state.discs.has("excess_pressure");
+    const bool wet = state.discs.has(columns::excess_pressure);
     const auto pressure =
-        wet ? state.discs.get<double>("excess_pressure") : std::span<const double>{};
+        wet ? state.discs.get(columns::excess_pressure) : std::span<const double>{};
     const double left = d.x[by_x.front()] - state.mean_radius;
     const double right = d.x[by_x.back()] + state.mean_radius;
     // Width of the column on one side, if it ends at that distance.
@@ -121,7 +122,7 @@ std::vector<double> overburden(const State& state, std::span<const std::int32_t>
 double weakened_volume_change(const State& state, const RigidBase& base) {
     const std::vector<std::int32_t> rows = weak_rows(state);
     const std::vector<PowerCell> cells = power_cells(state, base, rows);
-    const auto rock_area = state.discs.get<double>("rock_area");
+    const auto rock_area = state.discs.get(columns::rock_area);
     double change = 0.0;
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (const double before = rock_area[static_cast<std::size_t>(rows[k])];

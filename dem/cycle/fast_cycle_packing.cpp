@@ -1,5 +1,6 @@
 // Packing: from the state's columns to the records of the fast cycle, and back.
 
+#include "dem/columns.hpp"
 #include "dem/cycle/cycle_work.hpp"
 #include "dem/cycle/fast_cycle.hpp"
 #include "dem/cycle/surroundings.hpp"
@@ -96,8 +97,8 @@ void FastCycle::pack_discs(const State& state, const Strip& strip) {
                        {}};
     }
     if (physics_.averaging_time > 0.0) {
-        const auto mean_vx = state.discs.get<float>("mean_vx");
-        const auto mean_vy = state.discs.get<float>("mean_vy");
+        const auto mean_vx = state.discs.get(columns::mean_vx);
+        const auto mean_vy = state.discs.get(columns::mean_vy);
         for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i)
             std::ranges::copy(std::array{mean_vx[i], mean_vy[i]}, inertia_[i].mean_velocity);
     }
@@ -291,7 +292,7 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
     const auto places =
-        deforms_ ? state.base_contacts.get<double>("place") : std::span<const double>();
+        deforms_ ? state.base_contacts.get(columns::place) : std::span<const double>();
     strip.base_contacts.clear();
     strip.base_rows.clear();
     strip.node_contacts.clear();
@@ -406,8 +407,8 @@ void FastCycle::unpack(const Strip& strip, State& state) const {
         for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i)
             d.radius[i] = discs_[i].place[3];
     if (physics_.averaging_time > 0.0) {
-        const auto mean_vx = state.discs.get<float>("mean_vx");
-        const auto mean_vy = state.discs.get<float>("mean_vy");
+        const auto mean_vx = state.discs.get(columns::mean_vx);
+        const auto mean_vy = state.discs.get(columns::mean_vy);
         for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i) {
             mean_vx[i] = inertia_[i].mean_velocity[0];
             mean_vy[i] = inertia_[i].mean_velocity[1];
@@ -415,7 +416,7 @@ void FastCycle::unpack(const Strip& strip, State& state) const {
     }
     const ContactColumns c = contact_columns(state);
     const BaseContactColumns b = base_contact_columns(state);
-    const auto places = deforms_ ? state.base_contacts.get<double>("place") : std::span<double>();
+    const auto places = deforms_ ? state.base_contacts.get(columns::place) : std::span<double>();
     for (const Blocks* from : {&strip.inner, &strip.boundary})
         for (std::size_t lane = 0; lane < from->rows.size(); ++lane)
             if (from->rows[lane] >= 0) {

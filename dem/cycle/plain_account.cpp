@@ -1,5 +1,6 @@
 #include "dem/cycle/plain_account.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/law.hpp"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ void PlainAccount::enter_node_contact(std::size_t k, const BaseContactDisc& disc
                                       const NodeContactForce& on_nodes) {
     const Surface& surface = surface_of(k);
     // The contact's place has been found: to look again changes nothing.
-    double place = state_.base_contacts.get<double>("place")[k];
+    double place = state_.base_contacts.get(columns::place)[k];
     const NodeContactMotion at = node_contact_motion(surface, nodes_, now_.extension, disc, place);
     enter({surface, disc, p, surface_motion(surface, at, now_, disc), at.velocity, on_nodes.force,
            shear_before, b_.shear_force[k], radius_rate_of(k)});

@@ -3,6 +3,7 @@
 #include "dem/base/contact.hpp"
 #include "dem/base/place.hpp"
 #include "dem/base/rest.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/plain_account.hpp"
 #include "dem/cycle/plain_pair.hpp"
@@ -35,7 +36,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
     const BaseInstant now = base_instant(base, state.clock);
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();
-    const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
+    const auto places = deforms ? state.base_contacts.get(columns::place) : std::span<double>();
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
@@ -104,8 +105,8 @@ public:
         : averages_(physics.averaging_time > 0.0 && !rests), thins_(thins) {
         if (!averages_)
             return;
-        mean_vx_ = state.discs.get<float>("mean_vx");
-        mean_vy_ = state.discs.get<float>("mean_vy");
+        mean_vx_ = state.discs.get(columns::mean_vx);
+        mean_vy_ = state.discs.get(columns::mean_vy);
         if (state.clock.cycle % averaging_interval == 0)
             weight_ = averaging_interval * state.clock.time_step / physics.averaging_time;
     }

@@ -1,6 +1,7 @@
 #include "dem/events/bond_healing.hpp"
 
 #include "dem/bond.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -38,9 +39,9 @@ BondHealing::BondHealing(const BondHealingParameters& parameters, const BondStre
       parameters_(parameters), strength_(strength) {}
 
 void BondHealing::begin(State& state) {
-    state.discs.add_like<double>("healed_x", "m", "x");
-    state.discs.add_like<double>("healed_y", "m", "y");
-    state.discs.add_like<double>("healed_rotation", "rad", "rotation");
+    state.discs.add_like<double>("healed_x", "m", columns::x);
+    state.discs.add_like<double>("healed_y", "m", columns::y);
+    state.discs.add_like<double>("healed_rotation", "rad", columns::rotation);
 }
 
 bool BondHealing::apply(State& state, const RigidBase&) {

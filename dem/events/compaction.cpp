@@ -1,6 +1,7 @@
 #include "dem/events/compaction.hpp"
 
 #include "dem/base/ground_level.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
 #include "dem/radius_rates.hpp"
 
@@ -28,25 +29,25 @@ Compaction::Compaction(const CompactionParameters& parameters, double surface_po
       surface_porosity_(surface_porosity) {}
 
 void Compaction::begin(State& state) {
-    state.discs.add<double>("porosity", "1", surface_porosity_);
+    state.discs.add(columns::porosity, surface_porosity_);
     add_radius_rates(state);
 }
 
 bool Compaction::apply(State& state, const RigidBase& base) {
     const DiscColumns d = disc_columns(state);
-    const auto porosity = state.discs.get<double>("porosity");
-    const auto radius_rate = state.discs.get<double>("radius_rate");
+    const auto porosity = state.discs.get(columns::porosity);
+    const auto radius_rate = state.discs.get(columns::radius_rate);
     // A weakened disc has the rock's radius beside its enlarged one; both shrink.
-    const bool weakening = state.discs.has("rock_radius");
+    const bool weakening = state.discs.has(columns::rock_radius);
     const auto rock_radius =
-        weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
-    const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
+        weakening ? state.discs.get(columns::rock_radius) : std::span<double>{};
+    const auto rock_area = weakening ? state.discs.get(columns::rock_area) : std::span<double>{};
     const Travel now = state.clock.travel, next = now + Travel(schedule().spacing());
     const double seconds = base.motion.time_at(next) - base.motion.time_at(now);
     const GroundLevel ground(state);
-    const bool given = state.discs.has("wanted_porosity");
+    const bool given = state.discs.has(columns::wanted_porosity);
     const auto wanted_porosity =
-        given ? state.discs.get<double>("wanted_porosity") : std::span<double>{};
+        given ? state.discs.get(columns::wanted_porosity) : std::span<double>{};
     std::ranges::fill(radius_rate, 0.0);
     const auto compact = [&](std::size_t i, Cover& cover) {
         const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
@@ -74,7 +75,7 @@ bool Compaction::apply(State& state, const RigidBase& base) {
         for (const std::int32_t row : rows)
             compact(static_cast<std::size_t>(row), cover);
     });
-    std::ranges::copy(d.radius, state.discs.get<double>("inertial_radius").begin());
+    std::ranges::copy(d.radius, state.discs.get(columns::inertial_radius).begin());
     return false; // lists of smaller discs still hold every contact
 }
 

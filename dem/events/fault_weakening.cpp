@@ -1,6 +1,7 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "dem/base/rest.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
@@ -44,7 +45,7 @@ Displacements displacements(State& state, double youngest, bool loose) {
     const auto scanned_y = state.discs.get<double>("scanned_y");
     const std::vector<bool> rock = cemented(state);
     const bool compacts = state.discs.has("scanned_porosity");
-    const auto porosity = compacts ? state.discs.get<double>("porosity") : std::span<double>();
+    const auto porosity = compacts ? state.discs.get(columns::porosity) : std::span<double>();
     const auto before = compacts ? state.discs.get<double>("scanned_porosity") : porosity;
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
@@ -284,13 +285,13 @@ FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, doubl
 }
 
 void FaultWeakening::begin(State& state) {
-    state.discs.add_like<double>("scanned_x", "m", "x");
-    state.discs.add_like<double>("scanned_y", "m", "y");
+    state.discs.add_like<double>("scanned_x", "m", columns::x);
+    state.discs.add_like<double>("scanned_y", "m", columns::y);
     add_enlarged_columns(state);
     if (parameters_.heal_after > 0.0)
         state.discs.add<double>("rested_a", "a", 0.0);
-    if (state.discs.has("porosity"))
-        state.discs.add_like<double>("scanned_porosity", "1", "porosity");
+    if (state.discs.has(columns::porosity))
+        state.discs.add_like<double>("scanned_porosity", "1", columns::porosity);
 }
 
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
@@ -346,7 +347,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     std::ranges::copy(d.x, state.discs.get<double>("scanned_x").begin());
     std::ranges::copy(d.y, state.discs.get<double>("scanned_y").begin());
     if (state.discs.has("scanned_porosity"))
-        std::ranges::copy(state.discs.get<double>("porosity"),
+        std::ranges::copy(state.discs.get(columns::porosity),
                           state.discs.get<double>("scanned_porosity").begin());
     return true;
 }

@@ -1,6 +1,7 @@
 #include "dem/events/sediment_stress.hpp"
 
 #include "dem/base/rest.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/damping.hpp"
 #include "dem/pushes.hpp"
@@ -87,7 +88,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
         contact_forces(state, base, {column_from - reach, column_to + reach});
     const std::vector<Point> net = net_forces(contacts, d.x.size());
     const bool relative = physics.averaging_time > 0.0 && !stops(base.motion, state.clock.travel);
-    const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
+    const auto mean_vy = relative ? state.discs.get(columns::mean_vy) : std::span<const float>();
     const double speed = base.motion.at(state.clock.time(), state.clock.travel).speed;
     const Stretching thins = stretching(base, state.clock.extension.m, speed);
     const auto undamped = [&](std::size_t i) { // as in the cycle, m/s

@@ -1,6 +1,7 @@
 #include "dem/events/sedimentation.hpp"
 
 #include "dem/base/ground.hpp"
+#include "dem/columns.hpp"
 #include "dem/nothing_left.hpp"
 #include "dem/random.hpp"
 #include "dem/units.hpp"
@@ -151,7 +152,7 @@ class GroundMotion {
 public:
     explicit GroundMotion(const State& state) : width_(4.0 * state.mean_radius) {
         const ConstDiscColumns d = disc_columns(state);
-        const bool averages = state.discs.has("mean_vx");
+        const bool averages = state.discs.has(columns::mean_vx);
         const auto [left, right] = std::ranges::minmax(d.x);
         left_ = left;
         std::vector<double> top(static_cast<std::size_t>((right - left) / width_) + 1,
@@ -164,8 +165,8 @@ public:
             const std::size_t k = column(d.x[i]);
             if (d.y[i] < top[k] - 6.0 * state.mean_radius)
                 continue;
-            velocities_[k].x += averages ? state.discs.get<float>("mean_vx")[i] : d.vx[i];
-            velocities_[k].y += averages ? state.discs.get<float>("mean_vy")[i] : d.vy[i];
+            velocities_[k].x += averages ? state.discs.get(columns::mean_vx)[i] : d.vx[i];
+            velocities_[k].y += averages ? state.discs.get(columns::mean_vy)[i] : d.vy[i];
             counts[k] += 1.0;
         }
         for (std::size_t k = 0; k < counts.size(); ++k)
@@ -188,14 +189,14 @@ private:
 /// up until their mean motion is known.
 void set_in_motion(State& state, std::size_t first, const GroundMotion& ground) {
     const DiscColumns d = disc_columns(state);
-    const bool averages = state.discs.has("mean_vx");
+    const bool averages = state.discs.has(columns::mean_vx);
     for (std::size_t i = first; i < d.x.size(); ++i) {
         const Point v = ground.at(d.x[i]);
         d.vx[i] = v.x;
         d.vy[i] = v.y;
         if (averages) {
-            state.discs.get<float>("mean_vx")[i] = static_cast<float>(v.x);
-            state.discs.get<float>("mean_vy")[i] = static_cast<float>(v.y);
+            state.discs.get(columns::mean_vx)[i] = static_cast<float>(v.x);
+            state.discs.get(columns::mean_vy)[i] = static_cast<float>(v.y);
         }
     }
 }

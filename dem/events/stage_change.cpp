@@ -1,6 +1,7 @@
 #include "dem/events/stage_change.hpp"
 
 #include "dem/base/rest.hpp"
+#include "dem/columns.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -41,9 +42,9 @@ bool StageChange::apply(State& state, const RigidBase&) {
     const MotionStage& now = changes_[static_cast<std::size_t>(applied)];
     if (now.sediment_friction)
         state.materials[sediment].friction = *now.sediment_friction;
-    if (rests(now) && state.discs.has("mean_vx"))
-        for (const char* mean : {"mean_vx", "mean_vy"})
-            std::ranges::fill(state.discs.get<float>(mean), 0.0f);
+    if (rests(now) && state.discs.has(columns::mean_vx))
+        for (const auto& mean : {columns::mean_vx, columns::mean_vy})
+            std::ranges::fill(state.discs.get(mean), 0.0f);
     return false;
 }
 

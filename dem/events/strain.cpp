@@ -1,5 +1,6 @@
 #include "dem/events/strain.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
@@ -22,20 +23,20 @@ void remember(State& state) {
     std::ranges::copy(d.x, state.discs.get<double>("window_x").begin());
     std::ranges::copy(d.y, state.discs.get<double>("window_y").begin());
     std::ranges::fill(state.discs.get<std::uint8_t>("in_window"), std::uint8_t{1});
-    if (!state.discs.has("porosity"))
+    if (!state.discs.has(columns::porosity))
         return;
-    state.discs.add_like<double>("window_porosity", "1", "porosity");
+    state.discs.add_like<double>("window_porosity", "1", columns::porosity);
     state.discs.mark_note("window_porosity");
-    std::ranges::copy(std::as_const(state).discs.get<double>("porosity"),
+    std::ranges::copy(std::as_const(state).discs.get(columns::porosity),
                       state.discs.get<double>("window_porosity").begin());
 }
 
 /// Vertical strain of discs by compaction since the window began, below 0, of the height that they
 /// had: a height goes as 1 / (1 - porosity). Empty where nothing compacts.
 std::vector<double> compaction_since(const State& state) {
-    if (!state.discs.has("porosity"))
+    if (!state.discs.has(columns::porosity))
         return {};
-    const auto now = state.discs.get<double>("porosity");
+    const auto now = state.discs.get(columns::porosity);
     const auto then = state.discs.get<double>("window_porosity");
     std::vector<double> strain(now.size());
     for (std::size_t i = 0; i < strain.size(); ++i)
@@ -98,28 +99,28 @@ void Strain::begin(State& state) {
     state.discs.add<double>("window_y", "m", 0.0);
     // 0 for discs deposited since the window began
     state.discs.add<std::uint8_t>("in_window", "1", 0);
-    state.discs.add<double>("window_strain", "1", 0.0);
-    state.discs.add<double>("total_strain", "1", 0.0);
-    state.discs.add_note<double>("window_tectonic_strain", "1", 0.0);
-    state.discs.add_note<double>("total_tectonic_strain", "1", 0.0);
+    state.discs.add(columns::window_strain);
+    state.discs.add(columns::total_strain);
+    state.discs.add_note(columns::window_tectonic_strain);
+    state.discs.add_note(columns::total_tectonic_strain);
     remember(state);
 }
 
 std::vector<double> shear_strain(const State& state) { return shear_without(state, {}); }
 
 std::optional<std::vector<double>> tectonic_strain(const State& state) {
-    if (state.discs.has("porosity") && !state.discs.has("window_porosity"))
+    if (state.discs.has(columns::porosity) && !state.discs.has("window_porosity"))
         return std::nullopt;
     return shear_without(state, compaction_since(state));
 }
 
 bool Strain::apply(State& state, const RigidBase&) {
     const std::vector<double> shear = shear_strain(state);
-    book(state, shear, "window_strain", "total_strain");
-    if (!state.discs.has("porosity") || state.discs.has("window_porosity")) {
-        state.discs.add_note<double>("window_tectonic_strain", "1", 0.0);
-        book(state, state.discs.has("porosity") ? *tectonic_strain(state) : shear,
-             "window_tectonic_strain", "total_tectonic_strain");
+    book(state, shear, columns::window_strain, columns::total_strain);
+    if (!state.discs.has(columns::porosity) || state.discs.has("window_porosity")) {
+        state.discs.add_note(columns::window_tectonic_strain);
+        book(state, state.discs.has(columns::porosity) ? *tectonic_strain(state) : shear,
+             columns::window_tectonic_strain, columns::total_tectonic_strain);
     }
     remember(state);
     return false;

@@ -1,5 +1,6 @@
 #include "dem/genesis/genesis.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/soft_discs.hpp"
@@ -136,7 +137,7 @@ void set_masses(State& state, double rock_density, double area) {
 void lay(State& state, const GenesisRequest& request) {
     if (request.layers.empty())
         return;
-    const auto layer_of = state.discs.add<std::uint8_t>("layer", "1", 0);
+    const auto layer_of = state.discs.add(columns::layer);
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const auto layer = std::ranges::find_if(request.layers, [&](const RockLayer& l) {
@@ -173,7 +174,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
     constexpr int rounds = 40;
     constexpr double enough = 0.002; // of the volume
     const VolumeKeeping how{2.0 * state.mean_radius};
-    const auto layer_of = state.discs.get<std::uint8_t>("layer");
+    const auto layer_of = state.discs.get(columns::layer);
     const DiscColumns d = disc_columns(state);
     std::vector<std::int32_t> rows;
     for (std::size_t i = 0; i < d.x.size(); ++i)

@@ -1,5 +1,6 @@
 #include "dem/ranks/subdomain.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/cycle/cycle_work.hpp"
 #include "dem/ranks/table_bytes.hpp"
 
@@ -17,20 +18,20 @@ namespace {
 
 /// Whether cycles need a column of discs: of the core columns, or one that damping, compaction or
 /// pushes add. What discs and effects remember stays with the whole.
-bool is_for_cycles(const std::string& name) {
-    constexpr const char* names[] = {
-        "x",          "y",       "vx",      "vy",          "rotation",
-        "spin",       "radius",  "mass",    "material",    "searched_x",
-        "searched_y", "mean_vx", "mean_vy", "radius_rate", "inertial_radius",
-        "push_x",     "push_y"};
+bool is_for_cycles(std::string_view name) {
+    using namespace columns;
+    constexpr std::string_view names[] = {
+        x,        y,          vx,         vy,      rotation, spin,        radius,          mass,
+        material, searched_x, searched_y, mean_vx, mean_vy,  radius_rate, inertial_radius, push_x,
+        push_y};
     return std::ranges::find(names, name) != std::end(names);
 }
 
 /// Whether cycles, or updates of neighbour lists, change a column of discs.
-bool is_changed(const std::string& name) {
-    constexpr const char* names[] = {"x",        "y",          "vx",        "vy",
-                                     "rotation", "spin",       "radius",    "mean_vx",
-                                     "mean_vy",  "searched_x", "searched_y"};
+bool is_changed(std::string_view name) {
+    using namespace columns;
+    constexpr std::string_view names[] = {x,      y,       vx,      vy,         rotation,  spin,
+                                          radius, mean_vx, mean_vy, searched_x, searched_y};
     return std::ranges::find(names, name) != std::end(names);
 }
 
@@ -133,10 +134,10 @@ namespace {
 
 /// Adds the loads on the nodes of a base to others of the same nodes.
 void add_loads(const Table& nodes, Table& to) {
-    for (const char* name : {"load_x", "load_y"})
-        if (to.has(name))
-            std::ranges::transform(nodes.get<std::int64_t>(name), to.get<std::int64_t>(name),
-                                   to.get<std::int64_t>(name).begin(), std::plus());
+    for (const auto& load : {columns::load_x, columns::load_y})
+        if (to.has(load))
+            std::ranges::transform(nodes.get(load), to.get(load), to.get(load).begin(),
+                                   std::plus());
 }
 
 /// Rows for which is_wanted(row) holds.
@@ -150,10 +151,11 @@ template <class Wanted> std::vector<std::int32_t> rows_where(std::size_t rows, W
 
 /// Adds those rows of a table of pairs, with the discs' rows in the whole.
 void add_pairs(const Table& table, std::span<const std::int32_t> rows,
-               std::initializer_list<const char*> discs, const Subdomain& subdomain, BytesOut& to) {
+               std::initializer_list<ColumnName<std::int32_t>> discs, const Subdomain& subdomain,
+               BytesOut& to) {
     Table pairs = selected(table, rows);
-    for (const char* name : discs)
-        for (std::int32_t& disc : pairs.get<std::int32_t>(name))
+    for (const ColumnName<std::int32_t>& name : discs)
+        for (std::int32_t& disc : pairs.get(name))
             disc = subdomain.rows[static_cast<std::size_t>(disc)];
     add_table(pairs, to);
 }
@@ -170,9 +172,10 @@ void put_values(const Table& from, std::span<const std::int32_t> rows, Table& to
 }
 
 /// In the order of pairs, if they are not.
-void sort_pairs(Table& table, const char* first_name, const char* second_name) {
-    const auto first = table.get<std::int32_t>(first_name);
-    const auto second = table.get<std::int32_t>(second_name);
+void sort_pairs(Table& table, const ColumnName<std::int32_t>& first_name,
+                const ColumnName<std::int32_t>& second_name) {
+    const auto first = table.get(first_name);
+    const auto second = table.get(second_name);
     const auto pair_of = [&](std::int32_t row) {
         return std::pair(first[static_cast<std::size_t>(row)],
                          second[static_cast<std::size_t>(row)]);
@@ -209,10 +212,10 @@ Bytes changes(const Subdomain& subdomain) {
               rows_where(
                   first.size(),
                   [&](std::size_t k) { return subdomain.own[static_cast<std::size_t>(first[k])]; }),
-              {"first", "second"}, subdomain, to);
+              {columns::first, columns::second}, subdomain, to);
     add_pairs(state.base_contacts,
-              rows_where(state.base_contacts.rows(), [](std::size_t) { return true; }), {"disc"},
-              subdomain, to);
+              rows_where(state.base_contacts.rows(), [](std::size_t) { return true; }),
+              {columns::disc}, subdomain, to);
     add_table(state.base_nodes, to);
     return to.take();
 }
@@ -234,8 +237,8 @@ void put_back(const Bytes& changes, int rank, std::span<const std::int32_t> own,
 }
 
 void sort_contacts(State& whole) {
-    sort_pairs(whole.contacts, "first", "second");
-    sort_pairs(whole.base_contacts, "disc", "surface");
+    sort_pairs(whole.contacts, columns::first, columns::second);
+    sort_pairs(whole.base_contacts, columns::disc, columns::surface);
 }
 
 Bytes packed(const Subdomain& subdomain) {

@@ -1,5 +1,6 @@
 #include "dem/ranks/subdomain_update.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/ranks/table_bytes.hpp"
 
@@ -96,8 +97,8 @@ struct Round {
 };
 
 std::vector<Round> rounds_of(const Table& discs, std::span<const std::int32_t> rows) {
-    const auto x = discs.get<double>("x"), y = discs.get<double>("y");
-    const auto radius = discs.get<double>("radius");
+    const auto x = discs.get(columns::x), y = discs.get(columns::y);
+    const auto radius = discs.get(columns::radius);
     std::vector<Round> rounds;
     for (const std::int32_t row : rows) {
         const auto k = static_cast<std::size_t>(row);

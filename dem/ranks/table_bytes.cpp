@@ -9,7 +9,7 @@
 namespace listric::dem {
 
 Table selected(const Table& table, std::span<const std::int32_t> rows,
-               bool (*is_wanted)(const std::string& column)) {
+               bool (*is_wanted)(std::string_view column)) {
     Table result;
     for (const Column& column : table.columns()) {
         if (is_wanted && !is_wanted(column.name))

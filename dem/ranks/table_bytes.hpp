@@ -11,7 +11,7 @@ namespace listric::dem {
 
 /// Rows of a table, of all columns or of those that are wanted.
 Table selected(const Table& table, std::span<const std::int32_t> rows,
-               bool (*is_wanted)(const std::string& column) = nullptr);
+               bool (*is_wanted)(std::string_view column) = nullptr);
 
 /// Adds the rows of a table to another with the same columns.
 void append_rows(const Table& rows, Table& to);

@@ -9,6 +9,7 @@
 #include "apps/support/fineness.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
@@ -208,7 +209,7 @@ LineTable wells_table(const ExportedMoment& at) {
 LineTable layers_table(const ExportedMoment& at) {
     LineTable table{"layers", "", {"name", "area_m2"}, {"thickness_m"}};
     const std::vector<LayerFacts>& layers = at.now.parts.layers;
-    if (layers.empty() || !at.now.state.discs.has("layer"))
+    if (layers.empty() || !at.now.state.discs.has(dem::columns::layer))
         return table;
     const std::vector<LayerThickness> all =
         layer_thickness(at.now.state, at.now.parts.base, layers.size());
@@ -259,13 +260,11 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     };
     if (!motion.stages.empty())
         columns.push_back({"start_travel_m", numbers(d.start_travel)});
-    if (state.discs.has("layer"))
-        columns.push_back({"layer", numbers(state.discs.get<std::uint8_t>("layer"))});
-    for (const char* name :
-         {"window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain",
-          "porosity", "excess_pressure", "overpressure_ratio"})
-        if (state.discs.has(name))
-            columns.push_back({name, numbers(state.discs.get<double>(name))});
+    if (state.discs.has(dem::columns::layer))
+        columns.push_back({"layer", numbers(state.discs.get(dem::columns::layer))});
+    for (const auto& column : exported_disc_columns)
+        if (state.discs.has(column))
+            columns.push_back({std::string(column.name), numbers(state.discs.get(column))});
     return columns;
 }
 
@@ -277,8 +276,8 @@ LineTable discs_table(const ExportedMoment& at) {
     for (const DiscColumn& column : columns)
         table.point_columns.push_back(column.name);
     const State& state = at.now.state;
-    const auto layers = state.discs.has("layer") ? state.discs.get<std::uint8_t>("layer")
-                                                 : std::span<const std::uint8_t>{};
+    const auto layers = state.discs.has(dem::columns::layer) ? state.discs.get(dem::columns::layer)
+                                                             : std::span<const std::uint8_t>{};
     const auto layer_of = [&](std::size_t i) { return layers.empty() ? 0 : layers[i]; };
     const auto name_of = [&](std::size_t i) -> std::string {
         const std::size_t layer = layer_of(i);

@@ -4,7 +4,10 @@
 #include "apps/measures/faults/fault.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/scene/parameters/effect.hpp"
+#include "dem/columns.hpp"
+#include "fluid/columns.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +20,15 @@ struct ExportedMoment {
     measures::FaultReport faults = {};
     std::vector<double> wells = {}; ///< x of wells, m; empty: where the effect has them
 };
+
+/// Columns of discs that tables and ParaView show where a run has them.
+inline constexpr std::array exported_disc_columns{dem::columns::window_strain,
+                                                  dem::columns::total_strain,
+                                                  dem::columns::window_tectonic_strain,
+                                                  dem::columns::total_tectonic_strain,
+                                                  dem::columns::porosity,
+                                                  dem::columns::excess_pressure,
+                                                  fluid::columns::overpressure_ratio};
 
 // Exports of docs/export.md, a table per kind. Points are rounded to a millimetre.
 

@@ -1,5 +1,6 @@
 #include "apps/figures/sections/paraview.hpp"
 
+#include "apps/archive/tables/exports.hpp"
 #include "apps/figures/sections/vtk_array.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/measures/strata/cohesion.hpp"
@@ -13,6 +14,7 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
+#include "fluid/columns.hpp"
 
 #include <fmt/format.h>
 
@@ -147,13 +149,13 @@ std::string discs_file(const State& state, const RigidBase& base) {
                                      static_cast<float>(s.xy)});
     file.array(file.point_data, "velocity_m_per_s", velocity, 3);
     file.array(file.point_data, "stress_pa", stress, 3, {"XX", "YY", "XY"});
-    for (const char* name :
-         {"window_strain", "total_strain", "window_tectonic_strain", "total_tectonic_strain",
-          "porosity", "excess_pressure", "overpressure_ratio"})
-        if (state.discs.has(name))
-            file.array(file.point_data, name, as<float>(state.discs.get<double>(name)));
-    if (state.discs.has("darcy_x")) {
-        const auto x = state.discs.get<double>("darcy_x"), y = state.discs.get<double>("darcy_y");
+    for (const auto& column : archive::exported_disc_columns)
+        if (state.discs.has(column))
+            file.array(file.point_data, std::string(column.name),
+                       as<float>(state.discs.get(column)));
+    if (state.discs.has(fluid::columns::darcy_x)) {
+        const auto x = state.discs.get(fluid::columns::darcy_x),
+                   y = state.discs.get(fluid::columns::darcy_y);
         std::vector<float> flow;
         for (std::size_t i = 0; i < n; ++i)
             flow.insert(flow.end(), {static_cast<float>(x[i]), static_cast<float>(y[i]), 0.0f});

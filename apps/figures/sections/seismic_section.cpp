@@ -6,6 +6,7 @@
 #include "apps/measures/strata/owner_map.hpp"
 #include "apps/measures/strata/rock.hpp"
 #include "dem/base/place.hpp"
+#include "dem/columns.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -45,8 +46,8 @@ std::vector<double> sediment_porosity(const Observation& now, const OwnerMap& ma
     std::vector<double> weight(map.owner.size(), 0.0), sum(map.owner.size(), 0.0);
     std::vector<double> porosity(d.x.size(),
                                  now.parts.sediment ? now.parts.sediment->surface_porosity : 0.0);
-    if (state.discs.has("porosity"))
-        std::ranges::copy(state.discs.get<double>("porosity"), porosity.begin());
+    if (state.discs.has(dem::columns::porosity))
+        std::ranges::copy(state.discs.get(dem::columns::porosity), porosity.begin());
     for (std::size_t at = 0; at < map.owner.size(); ++at)
         if (map.owner[at] >= 0) {
             const auto i = static_cast<std::size_t>(map.owner[at]);

@@ -1,5 +1,6 @@
 #include "apps/measures/faults/localisation.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -107,9 +108,9 @@ Localisation measure_localisation(const Setting& setting, const State& state,
     const bool whole = strain.applied > 0;
     const std::vector<double> so_far = whole ? std::vector<double>() : shear_strain(state);
     const std::span<const double> window =
-        whole ? state.discs.get<double>("window_strain") : std::span<const double>(so_far);
+        whole ? state.discs.get(dem::columns::window_strain) : std::span<const double>(so_far);
     const std::span<const double> total =
-        whole ? state.discs.get<double>("total_strain") : std::span<const double>(so_far);
+        whole ? state.discs.get(dem::columns::total_strain) : std::span<const double>(so_far);
     const BasementStrain s = basement_strain(
         state, window, total, 1.0 / seconds_of_window(setting, state, strain), setting.gravity);
     return {share_of_densest(s.last, s.area, densest), share_of_densest(s.sum, s.area, densest),

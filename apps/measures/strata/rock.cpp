@@ -4,6 +4,7 @@
 #include "apps/measures/strata/rock_layers.hpp"
 #include "dem/base/ground_level.hpp"
 #include "dem/base/just_before.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/units.hpp"
@@ -128,9 +129,9 @@ NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
 NamedNumbers measure_porosity(const State& state, const Sediment& sediment, double settled) {
     const ConstDiscColumns d = disc_columns(state);
     const GroundLevel ground(state, settled);
-    const bool weakens = state.discs.has("rock_radius");
+    const bool weakens = state.discs.has(dem::columns::rock_radius);
     const auto rock_radius =
-        weakens ? state.discs.get<double>("rock_radius") : std::span<const double>();
+        weakens ? state.discs.get(dem::columns::rock_radius) : std::span<const double>();
     double all = 0.0, error = 0.0, beyond = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] == 0 || state.clock.travel.m - d.start_travel[i] < settled)

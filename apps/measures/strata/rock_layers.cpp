@@ -1,5 +1,6 @@
 #include "apps/measures/strata/rock_layers.hpp"
 
+#include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/gradient.hpp"
@@ -19,7 +20,7 @@ using namespace dem;
 std::vector<LayerThickness> layer_thickness(const State& state, const RigidBase& base,
                                             std::size_t layers) {
     const ConstDiscColumns d = disc_columns(state);
-    const auto layer = state.discs.get<std::uint8_t>("layer");
+    const auto layer = state.discs.get(dem::columns::layer);
     const double width = 4.0 * state.mean_radius;
     std::vector<std::int32_t> rows;
     for (std::size_t i = 0; i < layer.size(); ++i)
@@ -71,10 +72,10 @@ double shear_of(const Gradient& g) {
 } // namespace
 
 std::optional<BeddingShear> bedding_shear(const State& state) {
-    if (!state.discs.has("layer"))
+    if (!state.discs.has(dem::columns::layer))
         return std::nullopt;
     const ConstDiscColumns d = disc_columns(state);
-    const auto layer = state.discs.get<std::uint8_t>("layer");
+    const auto layer = state.discs.get(dem::columns::layer);
     const double radius = 2.0 * reach * state.mean_radius;
     std::vector<std::size_t> rock;
     std::vector<double> x, y;

@@ -19,8 +19,8 @@ namespace listric::effects::pore_fluid {
 
 namespace {
 
-using P = coupling::PoreFluidParameters;
-using coupling::FaultFactors;
+using P = fluid::PoreFluidParameters;
+using fluid::FaultFactors;
 
 std::vector<Parameter> parameters() {
     std::vector<Parameter> all{
@@ -76,7 +76,7 @@ std::vector<Parameter> parameters() {
     return all;
 }
 
-coupling::WetSediment wet_sediment(const ModelParts& parts, double rate) {
+fluid::WetSediment wet_sediment(const ModelParts& parts, double rate) {
     return {parts.sediment->surface_porosity,
             *parts.sediment->porosity_decay,
             parts.sediment->grain_density,
@@ -84,14 +84,13 @@ coupling::WetSediment wet_sediment(const ModelParts& parts, double rate) {
             {parts.sediment->deposition_interval, rate}};
 }
 
-coupling::MudColumn mud_column(const P& p, const coupling::WetSediment& sediment, double gravity) {
-    return {coupling::pore_law(p, sediment, gravity), p.permeability, p.viscosity,
-            p.fracture_ratio};
+fluid::MudColumn mud_column(const P& p, const fluid::WetSediment& sediment, double gravity) {
+    return {fluid::pore_law(p, sediment, gravity), p.permeability, p.viscosity, p.fracture_ratio};
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
     parts.physics.gravity *=
-        coupling::buoyant_share(scene.find<P>()->density, parts.sediment->grain_density);
+        fluid::buoyant_share(scene.find<P>()->density, parts.sediment->grain_density);
 }
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
@@ -100,8 +99,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
         return;
     p.level = p.level.value_or(parts.sediment->level);
     dem::add(events,
-             std::make_unique<coupling::PoreFluid>(p, wet_sediment(parts, scene.extension.rate),
-                                                   parts.gravity, scene.extension.rate));
+             std::make_unique<fluid::PoreFluid>(p, wet_sediment(parts, scene.extension.rate),
+                                                parts.gravity, scene.extension.rate));
 }
 
 /// Water weighs on every scene's start, its permeability on none.
@@ -178,7 +177,7 @@ std::string explain(const Scene& scene, EffectList) {
         return fmt::format(
             "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
             parts.physics.gravity / parts.gravity);
-    const coupling::MudColumn column =
+    const fluid::MudColumn column =
         mud_column(p, wet_sediment(parts, scene.extension.rate), parts.gravity);
     // A floor below a steep detachment sinks by nine tenths of the extension.
     const double depth = std::min(0.9 * greatest_extension(scene), scene.hanging_wall.thickness);
@@ -187,8 +186,8 @@ std::string explain(const Scene& scene, EffectList) {
             "pore fluid\n  discs weigh {:.3f} of their weight in air; nothing sinks\n",
             parts.physics.gravity / parts.gravity);
     const double seconds = seconds_of_extension(scene);
-    const coupling::SteadyColumn sunk = coupling::sink_steadily(column, depth, seconds);
-    const double gibson = coupling::gibson_number(column, depth / seconds, seconds);
+    const fluid::SteadyColumn sunk = fluid::sink_steadily(column, depth, seconds);
+    const double gibson = fluid::gibson_number(column, depth / seconds, seconds);
     constexpr double shallow = 1000.0; // m
     const double half = 0.5 * depth;
     std::string ratios;
@@ -209,11 +208,11 @@ std::string explain(const Scene& scene, EffectList) {
         "porosity {:.3f} there, {:.3f} where water is at rest\n",
         parts.physics.gravity / parts.gravity, p.interval, p.fracture_ratio, half / 1e3,
         (at_rest + p.fracture_ratio * weight) / (at_rest + weight), depth / 1e3, gibson,
-        gibson < coupling::gibson_at_rest
+        gibson < fluid::gibson_at_rest
             ? "water is nearly at rest; hydrostatic = true has it at rest at no cost"
-        : gibson > coupling::gibson_undrained ? "hardly any water leaves but through fractures"
-                                              : "water leaves while mud is buried",
-        ratios, sunk.at(half).porosity, coupling::porosity_at(column.law, half));
+        : gibson > fluid::gibson_undrained ? "hardly any water leaves but through fractures"
+                                           : "water leaves while mud is buried",
+        ratios, sunk.at(half).porosity, fluid::porosity_at(column.law, half));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "dem/events/energy_account.hpp"
+#include "fluid/columns.hpp"
 #include "fluid/pore_fluid.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace listric::effects {
 
 namespace {
 
-using coupling::PoreFluid;
+using fluid::PoreFluid;
 using Sums = PoreFluid::Sums;
 using V = std::optional<double>;
 
@@ -115,9 +116,9 @@ template <class Number> std::vector<double> inks(const Observation& now, Number&
 /// Velocity of water through every disc, x and y, m/s.
 std::vector<double> darcy_velocities(const Observation& now) {
     std::vector<double> rows;
-    if (now.state.discs.has("darcy_x")) {
-        const auto x = now.state.discs.get<double>("darcy_x");
-        const auto y = now.state.discs.get<double>("darcy_y");
+    if (now.state.discs.has(fluid::columns::darcy_x)) {
+        const auto x = now.state.discs.get(fluid::columns::darcy_x);
+        const auto y = now.state.discs.get(fluid::columns::darcy_y);
         for (std::size_t i = 0; i < x.size(); ++i)
             rows.insert(rows.end(), {x[i], y[i]});
     }

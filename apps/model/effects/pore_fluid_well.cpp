@@ -1,14 +1,16 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 
 #include "apps/model/model.hpp"
+#include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
+#include "fluid/columns.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace listric::effects {
 
-using coupling::PoreFluid;
+using fluid::PoreFluid;
 
 const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
 
@@ -19,12 +21,12 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         return wet;
     const dem::State& state = now.state;
     const dem::ConstDiscColumns d = dem::disc_columns(state);
-    const auto porosity = state.discs.get<double>("porosity");
-    const auto pressure = state.discs.get<double>("excess_pressure");
-    const auto ratio = state.discs.get<double>("overpressure_ratio");
-    const auto water = state.discs.get<double>("pore_water");
+    const auto porosity = state.discs.get(dem::columns::porosity);
+    const auto pressure = state.discs.get(dem::columns::excess_pressure);
+    const auto ratio = state.discs.get(fluid::columns::overpressure_ratio);
+    const auto water = state.discs.get(fluid::columns::pore_water);
     const std::vector<double> grains = dem::grains_above(state, porosity);
-    const coupling::WetGround ground(state, now.parts.base.motion, fluid->sediment());
+    const fluid::WetGround ground(state, now.parts.base.motion, fluid->sediment());
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (water[i] < 0.0) // rock, and sediment that came after the last solution
             continue;
@@ -40,7 +42,7 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
                           ? pressure[i] / ratio[i]
                           : ground.grains({d.x[i], d.y[i]}, grains[i]) * fluid->law().grain_weight;
         disc.porosity = porosity[i];
-        disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
+        disc.normal_porosity = fluid::porosity_at(fluid->law(), disc.depth);
     }
     return wet;
 }
@@ -110,7 +112,7 @@ std::vector<WellPoint> well_at(const Observation& now, double x) {
         p.ratio = p.excess / weight;
         p.porosity = mean_of<&WetDisc::porosity>(bin);
         p.normal_porosity = mean_of<&WetDisc::normal_porosity>(bin);
-        p.permeability = coupling::permeability(fluid->parameters().permeability, p.porosity);
+        p.permeability = fluid::permeability(fluid->parameters().permeability, p.porosity);
         p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
     }
     return points;

@@ -8,7 +8,7 @@
 namespace listric::effects {
 
 /// The fluid of a run; null where its water is at rest.
-const coupling::PoreFluid* fluid_in(const Observation& now);
+const fluid::PoreFluid* fluid_in(const Observation& now);
 
 /// State of the fluid in a disc of sediment.
 struct WetDisc {

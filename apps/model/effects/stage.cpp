@@ -4,6 +4,7 @@
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
 #include "dem/base/just_before.hpp"
+#include "dem/columns.hpp"
 #include "dem/events/stage_change.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ public:
     }
 
     void begin(dem::State& state) override {
-        state.discs.add<double>("turn_strain", "1", 0.0);
+        state.discs.add(turn_strain);
         memory.add<double>("extension_m", "m", 0.0);
         memory.add<double>("uplift_area_m2", "m2", 0.0);
         memory.add<double>("relief_m", "m", 0.0);
@@ -48,8 +49,8 @@ public:
 
     bool apply(dem::State& state, const dem::RigidBase&) override {
         if (applied == 0)
-            std::ranges::copy(std::as_const(state).discs.get<double>("total_strain"),
-                              state.discs.get<double>("turn_strain").begin());
+            std::ranges::copy(std::as_const(state).discs.get(dem::columns::total_strain),
+                              state.discs.get(turn_strain).begin());
         memory.resize(memory.rows() + 1);
         memory.get<double>("extension_m").back() = state.clock.extension.m;
         memory.get<double>("uplift_area_m2").back() = area_above_regional(state, regional_);

@@ -1,6 +1,7 @@
 #include "apps/model/effects/stage_measures.hpp"
 
 #include "dem/base/just_before.hpp"
+#include "dem/columns.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -118,8 +119,8 @@ std::optional<double> null_point(const State& state, const Motion& motion,
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] > 0 && Travel(d.start_travel[i]) <= last)
             deposited[d.stratum[i]] = Travel(d.start_travel[i]);
-    const auto porosity = decompaction && state.discs.has("porosity")
-                              ? state.discs.get<double>("porosity")
+    const auto porosity = decompaction && state.discs.has(dem::columns::porosity)
+                              ? state.discs.get(dem::columns::porosity)
                               : std::span<const double>();
     std::optional<double> before; // height of the next older top, m
     double before_at = 0.0;
@@ -165,11 +166,11 @@ std::optional<double> null_point(const State& state, const Motion& motion,
 }
 
 std::optional<double> reactivated_share(const State& state) {
-    if (!state.discs.has("turn_strain") || !state.discs.has("total_strain"))
+    if (!state.discs.has(turn_strain) || !state.discs.has(dem::columns::total_strain))
         return std::nullopt;
     const ConstDiscColumns d = disc_columns(state);
-    const auto total = state.discs.get<double>("total_strain"),
-               turn = state.discs.get<double>("turn_strain");
+    const auto total = state.discs.get(dem::columns::total_strain),
+               turn = state.discs.get(turn_strain);
     std::vector<std::size_t> rows;
     double area = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i)

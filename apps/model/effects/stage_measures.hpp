@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/column.hpp"
 #include "dem/motion.hpp"
 #include "dem/state.hpp"
 
@@ -10,6 +11,9 @@
 // are above the regional, the line that the basin was filled to when shortening began.
 
 namespace listric::effects::stage {
+
+/// Of discs: shear strain up to the turn.
+inline constexpr dem::ColumnName<double> turn_strain{"turn_strain", "1", 0.0};
 
 /// When shortening begins for the first time.
 std::optional<dem::Travel> turn_of(const dem::Motion& motion);

@@ -1,6 +1,7 @@
 #include "apps/model/effects/stage_pauses.hpp"
 
 #include "dem/base/rest.hpp"
+#include "dem/columns.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/hypotenuse.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 /// Strain of every disc since the run began, the present window included.
 std::vector<double> strain_so_far(const State& state) {
     std::vector<double> strain = shear_strain(state);
-    const auto before = state.discs.get<double>("total_strain");
+    const auto before = state.discs.get(dem::columns::total_strain);
     std::ranges::transform(strain, before, strain.begin(), std::plus());
     return strain;
 }
@@ -44,7 +45,7 @@ Unrest unrest_now(const State& state) {
 
 double last_window(const State& state) {
     const auto stratum = disc_columns(state).stratum;
-    const auto strain = state.discs.get<double>("window_strain");
+    const auto strain = state.discs.get(dem::columns::window_strain);
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < strain.size(); ++i)
         if (stratum[i] == 0) {

@@ -8,7 +8,7 @@ namespace listric {
 struct SedimentPores {
     double surface_porosity = 0.5; ///< as deposited
     double coefficient = 4e-4;     ///< decay of porosity with depth, 1/m
-    coupling::Permeability permeability = {};
+    fluid::Permeability permeability = {};
 };
 
 } // namespace listric

@@ -90,7 +90,7 @@ template <auto... Path> Parameter porosity_decay_parameter() {
 
 /// How sediment lets water through, of the Permeability at a path of members.
 template <auto... Path> std::vector<Parameter> permeability_parameters() {
-    using coupling::Permeability;
+    using fluid::Permeability;
     return {
         {"permeability_m2",
          at<Path..., &Permeability::at_fifth>,

@@ -8,7 +8,7 @@
 
 namespace listric::pore_law_test {
 
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 constexpr PoreLaw law{};

@@ -9,7 +9,7 @@
 namespace listric::wet_sediment_test {
 
 using namespace dem;
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 using namespace support;

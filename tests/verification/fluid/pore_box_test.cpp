@@ -19,7 +19,7 @@
 namespace listric::pore_box_test {
 
 using namespace dem;
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 using namespace support;

@@ -14,7 +14,7 @@
 
 namespace listric::pore_column_test {
 
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 constexpr double year = 31557600.0, million = 1e6 * year;

@@ -17,7 +17,7 @@
 namespace listric::pore_flow_test {
 
 using namespace dem;
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 using namespace support;

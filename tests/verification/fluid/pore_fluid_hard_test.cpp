@@ -12,7 +12,7 @@
 namespace listric::pore_fluid_hard_test {
 
 using namespace dem;
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 using namespace support;

@@ -25,7 +25,7 @@
 namespace listric::pore_strata_test {
 
 using namespace dem;
-using namespace coupling;
+using namespace fluid;
 namespace {
 
 using namespace support;
