@@ -3,7 +3,6 @@
 #include "dem/base/contact.hpp"
 #include "dem/base/place.hpp"
 #include "dem/base/rest.hpp"
-#include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/plain_account.hpp"
 #include "dem/cycle/plain_pair.hpp"
