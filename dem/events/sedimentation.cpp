@@ -204,7 +204,6 @@ void set_in_motion(State& state, std::size_t first, const GroundMotion& ground) 
 } // namespace
 
 double disc_density(const SedimentationParameters& parameters) {
-    constexpr double packing_porosity = 0.166; // of discs under gravity
     return parameters.grain_density * (1.0 - parameters.surface_porosity) /
            (1.0 - packing_porosity);
 }

@@ -286,8 +286,7 @@ State make_hanging_wall(const GenesisRequest& request,
         m.friction = 0.0;
 
     const double area = hanging_wall_area(p, request.base.surfaces.front().chain);
-    const double porosity_under_gravity = 0.166; // where frictionless packings end by themselves
-    const double density = p.rock_density / (1.0 - porosity_under_gravity);
+    const double density = p.rock_density / (1.0 - packing_porosity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
     state.clock.time_step =

@@ -7,6 +7,7 @@
 #include "dem/hypotenuse.hpp"
 #include "dem/point.hpp"
 #include "dem/threads/shared_loop.hpp"
+#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,10 +39,9 @@ std::vector<LayerThickness> layer_thickness(const State& state, const RigidBase&
         if (n >= layers)
             continue;
         // A cell at the free surface is open: then the disc and its share of pores stand for it.
-        constexpr double pores = 0.166;
-        const double area = cells[k].closed
-                                ? cells[k].area
-                                : 3.141592653589793 * d.radius[i] * d.radius[i] / (1.0 - pores);
+        const double area =
+            cells[k].closed ? cells[k].area
+                            : dem::pi * d.radius[i] * d.radius[i] / (1.0 - dem::packing_porosity);
         Column& column = columns[n][static_cast<int>(std::floor(d.x[i] / width))];
         column.area += area;
         column.moment -= area * d.y[i];

@@ -151,7 +151,6 @@ std::optional<double> null_point(const State& state, const Motion& motion,
                     lost +=
                         pi * d.radius[i] * d.radius[i] * ((1.0 - porosity[i]) / (1.0 - then) - 1.0);
             }
-            constexpr double packing_porosity = 0.166; // of discs under gravity
             height += lost / (1.0 - packing_porosity) / (to - from);
         }
         const double at = motion.position(travel).m;

@@ -169,7 +169,7 @@ std::size_t new_discs(const Scene& s) {
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const HangingWallParameters& h = scene.hanging_wall;
-    const double density = h.rock_density / (1.0 - 0.166);
+    const double density = h.rock_density / (1.0 - packing_porosity);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
     const double smallest = 2.0 / (1.0 + h.radius_ratio);
     const ModelParts parts = make_parts(scene);
