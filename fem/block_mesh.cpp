@@ -61,7 +61,7 @@ void BlockMesher::add(const Block& block, const Fractions& u, const Fractions& v
                                    s * right(t) - (1 - s) * (1 - t) * sw - s * (1 - t) * se -
                                    (1 - s) * t * nw - s * t * ne));
     const std::size_t n = u.size(), m = v.size();
-    const auto edge = [&](std::size_t start, std::size_t end, const BlockSide& side) {
+    const auto edge = [&](std::size_t start, std::size_t end, const MeshSide& side) {
         if (side.boundary || side.curve != EdgeCurve::straight)
             mesh_.edges.push_back({index[start], index[end], side.boundary, side.curve});
     };

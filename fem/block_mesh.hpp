@@ -38,7 +38,7 @@ Path segment(Vector a, Vector b);
 Path stretch(const Curve& curve, double from, double to);
 Path reversed(Path path);
 
-struct BlockSide {
+struct MeshSide {
     Path path;
     std::optional<Boundary> boundary = {}; ///< none: inside
     EdgeCurve curve = EdgeCurve::straight;
@@ -46,7 +46,7 @@ struct BlockSide {
 
 /// Four sides of a block; bottom and top run to the right, left and right upward.
 struct Block {
-    BlockSide bottom, top, left, right;
+    MeshSide bottom, top, left, right;
 };
 
 /// Where cells meet along a side: fractions of it, ascending from 0 to 1.

@@ -148,7 +148,7 @@ private:
 
     struct Column {
         Fractions cells;
-        BlockSide top;
+        MeshSide top;
         double left = 0.0, right = 0.0; ///< x, m
     };
 

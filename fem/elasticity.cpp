@@ -50,7 +50,7 @@ dealii::Quadrature<1> in_parts(const dealii::Quadrature<1>& points, std::vector<
 }
 
 /// Adds the lower triangle of a cell's integral of sigma(u) : eps(v).
-void add_stiffness(const dealii::FEValues<2>& values, const Material& material,
+void add_stiffness(const dealii::FEValues<2>& values, const ElasticRock& material,
                    const std::vector<unsigned>& component, dealii::FullMatrix<double>& local) {
     for (const unsigned q : values.quadrature_point_indices()) {
         const Rock rock = material.at(plain(values.quadrature_point(q)));

@@ -155,7 +155,7 @@ private:
     MPI_Comm processes_;
     FootwallRequest request_;
     Mesh mesh_;
-    Material material_;
+    ElasticRock material_;
     dealii::FESystem<2> element_;
     dealii::MappingQCache<2> mapping_;
     dealii::DoFHandler<2> unknowns_;

@@ -5,14 +5,14 @@
 
 namespace listric::fem {
 
-Material::Material(const FootwallRequest& request, Curve detachment)
+ElasticRock::ElasticRock(const FootwallRequest& request, Curve detachment)
     : layers_(request.layers), elastic_thickness_(request.elastic_thickness),
       relaxation_(request.relaxation), skin_thickness_(request.skin_thickness),
       detachment_(std::move(detachment)) {
     assert(!layers_.empty() && relaxation_ >= 1.0);
 }
 
-Rock Material::at(Vector place) const {
+Rock ElasticRock::at(Vector place) const {
     const Layer* layer = &layers_.front();
     for (const Layer& below : layers_)
         if (-place.y >= below.top_depth)

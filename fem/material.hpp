@@ -12,9 +12,9 @@ struct Rock {
 };
 
 /// Where which rock is: layers by depth, relaxed below the elastic thickness except in the skin.
-class Material {
+class ElasticRock {
 public:
-    Material(const FootwallRequest& request, Curve detachment);
+    ElasticRock(const FootwallRequest& request, Curve detachment);
     Rock at(Vector place) const;
 
 private:

@@ -36,7 +36,7 @@ Stress stress_of(const Rock& rock, const Tensor<2, 2>& g) {
 /// Stress, elastic moduli and density at the points of output.
 class StressOutput : public dealii::DataPostprocessor<2> {
 public:
-    explicit StressOutput(const Material& material) : material_(material) {}
+    explicit StressOutput(const ElasticRock& material) : material_(material) {}
 
     std::vector<std::string> get_names() const override {
         return {"stress_xx_pa",     "stress_yy_pa",  "stress_xy_pa",
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    const Material& material_;
+    const ElasticRock& material_;
 };
 
 } // namespace

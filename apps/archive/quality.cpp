@@ -23,7 +23,9 @@ namespace {
 
 using M = Measures;
 
-Verdict verdict_of(bool good) { return good ? Verdict::good : Verdict::doubtful; }
+QualityVerdict verdict_of(bool good) {
+    return good ? QualityVerdict::good : QualityVerdict::doubtful;
+}
 
 /// 1e-16, 0.0003
 std::string small_text(double value) {
@@ -136,7 +138,7 @@ void add_discs_per_fault(std::vector<QualityCheck>& all, const JsonObject& summa
     all.push_back({std::string(field_width), "Discs across a fault",
                    most - least < 0.05 ? fmt::format("{:.1f}", most)
                                        : fmt::format("{:.1f} to {:.1f}", least, most),
-                   fmt::format("{:g} to interpret", fewest_discs_across), Verdict::note,
+                   fmt::format("{:g} to interpret", fewest_discs_across), QualityVerdict::note,
                    fmt::format("The width of faults is the grain's. Do not interpret what is "
                                "narrower than {:g} discs, {}.",
                                fewest_discs_across, length_words(narrowest))});
@@ -150,7 +152,7 @@ void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
     const bool usual = least <= *ratio && *ratio <= most;
     all.push_back({effects::sediment_stress_ratio, "Weight of the sediment",
                    fmt::format("{:.2f}", *ratio), fmt::format("lis1: {:g} to {:g}", least, most),
-                   usual ? Verdict::good : Verdict::note,
+                   usual ? QualityVerdict::good : QualityVerdict::note,
                    usual ? "The sediment carries its own weight."
                          : "Stress in the sediment over the weight above: 1 if it carries its own "
                            "weight. The range is that of lis1 at standard."});
@@ -187,30 +189,30 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     return all;
 }
 
-Verdict verdict_of(const std::vector<QualityCheck>& checks) {
-    Verdict verdict = Verdict::note;
+QualityVerdict verdict_of(const std::vector<QualityCheck>& checks) {
+    QualityVerdict verdict = QualityVerdict::note;
     for (const QualityCheck& check : checks)
-        if (check.verdict != Verdict::note && verdict != Verdict::doubtful)
+        if (check.verdict != QualityVerdict::note && verdict != QualityVerdict::doubtful)
             verdict = check.verdict;
     return verdict;
 }
 
 std::vector<std::string> verdict_lines(const std::vector<QualityCheck>& checks) {
-    const Verdict verdict = verdict_of(checks);
-    if (verdict == Verdict::note)
+    const QualityVerdict verdict = verdict_of(checks);
+    if (verdict == QualityVerdict::note)
         return {};
     std::vector<std::string> briefs, lines;
     for (const QualityCheck& check : checks) {
         if (!check.brief.empty())
             briefs.push_back(check.brief);
-        if (check.verdict == Verdict::doubtful)
+        if (check.verdict == QualityVerdict::doubtful)
             lines.push_back(check.words);
     }
     lines.insert(lines.begin(), fmt::format("{}: {}", name_of(verdict), fmt::join(briefs, ", ")));
     return lines;
 }
 
-const char* name_of(Verdict verdict) {
+const char* name_of(QualityVerdict verdict) {
     constexpr const char* names[] = {"good", "doubtful", "note"};
     return names[static_cast<int>(verdict)];
 }

@@ -15,7 +15,7 @@ inline constexpr double least_area_balance = 0.95, most_area_balance = 1.03;
 inline constexpr dem::Extension area_balance_from{5e3};
 inline constexpr double fewest_discs_across = 5; ///< of what is interpreted
 
-enum class Verdict {
+enum class QualityVerdict {
     good,
     doubtful,
     note ///< has no bound in this run, or tells what may be interpreted
@@ -27,7 +27,7 @@ struct QualityCheck {
     std::string label; ///< a noun: "balance of areas"
     std::string value; ///< for people: "0.976", "yes"
     std::string bound; ///< for people: "0.95 to 1.03"
-    Verdict verdict = Verdict::note;
+    QualityVerdict verdict = QualityVerdict::note;
     std::string words = {}; ///< a sentence on the meaning, and on the cure where it is doubtful
     std::string brief = {}; ///< among the results of a run: "mass error 2e-15"; none: left out
 };
@@ -43,10 +43,10 @@ struct QualityContext {
 std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context);
 
 /// "good", "doubtful" or "note".
-const char* name_of(Verdict verdict);
+const char* name_of(QualityVerdict verdict);
 
 /// Of all of a run's questions: doubtful if one is; a note where nothing is judged.
-Verdict verdict_of(const std::vector<QualityCheck>& checks);
+QualityVerdict verdict_of(const std::vector<QualityCheck>& checks);
 
 /// "good: quasi-static, mass error 2e-15", and below it why it is doubtful, if it is.
 std::vector<std::string> verdict_lines(const std::vector<QualityCheck>& checks);

@@ -65,8 +65,8 @@ fs::path output_of(const RunCall& call, const std::string& scene) {
 
 /// Room for a run that may end early. Nobody knows what of the disk a run that goes on, or
 /// takes the place of another, will find.
-Room room_of(const RunCall& call, const Scene& scene) {
-    Room room = room_for(output_of(call, scene.name));
+FreeSpace room_of(const RunCall& call, const Scene& scene) {
+    FreeSpace room = room_for(output_of(call, scene.name));
     if (call.options.resume || call.options.force)
         room.disk = std::numeric_limits<double>::infinity();
     const double distance = scene.extension.distance;

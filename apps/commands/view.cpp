@@ -121,7 +121,7 @@ std::string quality_html(const Card& card) {
             archive::quality_checks(card.summary, {.base_moves = make_parts(scene).base_moves});
         std::vector<std::string> why;
         for (const archive::QualityCheck& check : checks)
-            if (check.verdict == archive::Verdict::doubtful)
+            if (check.verdict == archive::QualityVerdict::doubtful)
                 why.push_back(check.brief);
         const char* const verdict = archive::name_of(archive::verdict_of(checks));
         return fmt::format("<p class={0}><b>{0}</b>{1}{2}</p>", verdict, why.empty() ? "" : ": ",

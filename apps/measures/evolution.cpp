@@ -26,7 +26,8 @@ Past remember(const Setting& setting, const RigidBase& base, const State& now,
 
 NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, const State& now,
                                const FaultReport& faults, const Measures& measures,
-                               std::span<const FaultSegment> segments, std::span<const Past> past) {
+                               std::span<const DetectedSegment> segments,
+                               std::span<const Past> past) {
     const RunSoFar run(setting, base, now, past);
     NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
     // The rest compares moments of a wall that is pulled on and on.

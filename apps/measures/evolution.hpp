@@ -21,7 +21,7 @@ Past remember(const Setting& setting, const dem::RigidBase& base, const dem::Sta
 /// @param past      earlier moments, oldest first
 NamedNumbers measure_evolution(const Setting& setting, const dem::RigidBase& base,
                                const dem::State& now, const FaultReport& faults,
-                               const Measures& measures, std::span<const FaultSegment> segments,
+                               const Measures& measures, std::span<const DetectedSegment> segments,
                                std::span<const Past> past);
 
 /// All quantities that can occur, but those in the fault report.

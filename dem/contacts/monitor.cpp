@@ -17,7 +17,7 @@ namespace {
 /// Calls visit(row, i, j, normal, overlap) for every pair from row k on, before the end, that
 /// touches or is bonded and has a disc in the strip.
 template <class Visit>
-void for_each_touching(const State& state, Strip strip, std::size_t k, std::size_t end,
+void for_each_touching(const State& state, SectionStrip strip, std::size_t k, std::size_t end,
                        Visit&& visit) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
@@ -39,7 +39,8 @@ template <class Visit> void for_each_touching(const State& state, Visit&& visit)
 }
 
 template <class Visit>
-void for_each_base_contact(const State& state, const RigidBase& base, Strip strip, Visit&& visit) {
+void for_each_base_contact(const State& state, const RigidBase& base, SectionStrip strip,
+                           Visit&& visit) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseContactColumns c = base_contact_columns(state);
     const BasePlace place = base_place(state);
@@ -62,7 +63,7 @@ Point acting(const Material& p, const Material& q, Point n, double overlap, doub
 
 } // namespace
 
-ContactForces contact_forces(const State& state, const RigidBase& base, Strip strip) {
+ContactForces contact_forces(const State& state, const RigidBase& base, SectionStrip strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);

@@ -29,7 +29,7 @@ struct ContactForces {
 };
 
 /// A part of the x axis, m.
-struct Strip {
+struct SectionStrip {
     double from = -std::numeric_limits<double>::infinity();
     double to = std::numeric_limits<double>::infinity();
 
@@ -37,7 +37,7 @@ struct Strip {
 };
 
 /// Forces as they stand, of the contacts of discs whose centres are in the strip.
-ContactForces contact_forces(const State& state, const RigidBase& base, Strip strip = {});
+ContactForces contact_forces(const State& state, const RigidBase& base, SectionStrip strip = {});
 
 /// Their sum on every disc, N.
 std::vector<Point> net_forces(const ContactForces& contacts, std::size_t discs);

@@ -39,11 +39,11 @@ inline Lanes of_discs(const Double4* each) {
 #endif
 }
 
-struct Motion {
+struct MotionLanes {
     Lanes place, velocity;
 };
 
-inline Motion load_motion(const Disc* discs) {
+inline MotionLanes load_motion(const Disc* discs) {
 #if LISTRIC_LEVEL >= 4
     const double* const numbers = reinterpret_cast<const double*>(discs);
     const Lanes one = load(numbers), other = load(numbers + disc_numbers);
@@ -53,7 +53,7 @@ inline Motion load_motion(const Disc* discs) {
 #endif
 }
 
-inline void store_motion(Disc* discs, const Motion& motion) {
+inline void store_motion(Disc* discs, const MotionLanes& motion) {
 #if LISTRIC_LEVEL >= 4
     double* const numbers = reinterpret_cast<double*>(discs);
     store(numbers, first_halves(motion.place, motion.velocity));

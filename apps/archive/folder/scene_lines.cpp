@@ -107,9 +107,9 @@ std::map<std::string, std::string> scene_values(std::string_view text) {
     return values;
 }
 
-std::optional<SceneDifference> scene_difference(const std::map<std::string, std::string>& one,
-                                                const std::map<std::string, std::string>& other,
-                                                SceneScope scope) {
+std::optional<LineDifference> scene_difference(const std::map<std::string, std::string>& one,
+                                               const std::map<std::string, std::string>& other,
+                                               SceneScope scope) {
     const auto is_compared = [&](const std::string& parameter) {
         return scope == SceneScope::all || parameter == "output.interval_m" ||
                !(parameter == "name" || parameter == "description" ||
@@ -117,10 +117,10 @@ std::optional<SceneDifference> scene_difference(const std::map<std::string, std:
     };
     for (const auto& [parameter, value] : one)
         if (is_compared(parameter) && value_in(other, parameter) != value)
-            return SceneDifference{parameter, value, value_in(other, parameter)};
+            return LineDifference{parameter, value, value_in(other, parameter)};
     for (const auto& [parameter, value] : other)
         if (is_compared(parameter) && value_in(one, parameter) != value)
-            return SceneDifference{parameter, value_in(one, parameter), value};
+            return LineDifference{parameter, value_in(one, parameter), value};
     return std::nullopt;
 }
 

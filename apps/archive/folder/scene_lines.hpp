@@ -16,7 +16,7 @@ std::vector<std::string> scene_lines(std::string_view text);
 std::map<std::string, std::string> scene_values(std::string_view text);
 
 /// A parameter in which two scenes differ; nothing: it is not there.
-struct SceneDifference {
+struct LineDifference {
     std::string parameter, one, other;
 };
 
@@ -27,8 +27,8 @@ enum class SceneScope {
 };
 
 /// The first parameter, by name, in which two scenes differ; none if they are the same.
-std::optional<SceneDifference> scene_difference(const std::map<std::string, std::string>& one,
-                                                const std::map<std::string, std::string>& other,
-                                                SceneScope scope = SceneScope::all);
+std::optional<LineDifference> scene_difference(const std::map<std::string, std::string>& one,
+                                               const std::map<std::string, std::string>& other,
+                                               SceneScope scope = SceneScope::all);
 
 } // namespace listric::archive

@@ -58,9 +58,9 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     return setting;
 }
 
-std::vector<measures::FaultSegment>
+std::vector<measures::DetectedSegment>
 fault_segments(std::span<const std::unique_ptr<dem::Event>> events) {
-    std::vector<measures::FaultSegment> segments;
+    std::vector<measures::DetectedSegment> segments;
     for (const auto& event : events) {
         const dem::Table& found = event->memory;
         if (!found.has("found_at_m"))

@@ -15,7 +15,7 @@ namespace listric::archive {
 measures::Setting make_setting(const Scene& scene, const ModelParts& parts);
 
 /// The fault segments that detection has found so far; none if the scene has no fault detection.
-std::vector<measures::FaultSegment>
+std::vector<measures::DetectedSegment>
 fault_segments(std::span<const std::unique_ptr<dem::Event>> events);
 
 } // namespace listric::archive

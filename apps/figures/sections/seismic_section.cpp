@@ -100,7 +100,7 @@ public:
 
     double top() const { return top_; }
     const OwnerMap& map() const { return map_; }
-    const Room& room() const { return room_; }
+    const RockSpace& room() const { return room_; }
 
     /// The last layer is the footwall, without end.
     std::vector<SeismicLayer> at(double x) const {
@@ -178,7 +178,7 @@ private:
 
     SeismicLaw law_;
     std::vector<Horizon> horizons_; ///< oldest first
-    Room room_;
+    RockSpace room_;
     OwnerMap map_;
     std::vector<double> porosity_;
     std::vector<std::uint32_t> rock_;

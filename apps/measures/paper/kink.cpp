@@ -36,11 +36,11 @@ constexpr double gentlest = 20.0, steepest = 80.0;     ///< dip of reverse fault
 bool is_reverse_dip(double degrees) { return degrees > gentlest && degrees < steepest; }
 
 /// Centres of the segments found in a window that slid as reverse faults dipping to the breakaway.
-std::vector<Point> reverse_segments(std::span<const FaultSegment> segments, Travel from,
+std::vector<Point> reverse_segments(std::span<const DetectedSegment> segments, Travel from,
                                     Travel to) {
     constexpr Travel tolerance(1.0); // an interval and a window may end in the same cycle
     std::vector<Point> centres;
-    for (const FaultSegment& s : segments)
+    for (const DetectedSegment& s : segments)
         if (s.found_at > from + tolerance && s.found_at < to + tolerance && s.slip > 0.0 &&
             is_reverse_dip(s.dip))
             centres.push_back(s.centre);
@@ -79,7 +79,7 @@ AboveKink sum_above_kink(const RunSoFar& run, const ShearField& field,
 }
 
 /// Since half of the extension: by then the upper block's toe turns back.
-NamedNumbers measure_above_kink(const RunSoFar& run, std::span<const FaultSegment> segments,
+NamedNumbers measure_above_kink(const RunSoFar& run, std::span<const DetectedSegment> segments,
                                 double kink, double flat_depth) {
     double strain = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
     for (std::size_t k = 0; k < run.past.size(); ++k) {
@@ -125,7 +125,8 @@ ShearPlane shear_plane(const ShearField& field, std::size_t k) {
 }
 
 NamedNumbers measure_kink(const RunSoFar& run, const RampFlatRamp& parts,
-                          std::span<const Fault> faults, std::span<const FaultSegment> segments) {
+                          std::span<const Fault> faults,
+                          std::span<const DetectedSegment> segments) {
     const double kink = point_at(run.detachment, parts.flat_end).x;
     NamedNumbers numbers = measure_above_kink(run, segments, kink, parts.flat_depth);
     double traced = 0.0;

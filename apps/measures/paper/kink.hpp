@@ -20,7 +20,7 @@ struct ShearPlane {
 ShearPlane shear_plane(const ShearField& field, std::size_t k);
 
 /// A piece of a fault that detection found.
-struct FaultSegment {
+struct DetectedSegment {
     dem::Point centre; ///< m
     double dip = 0.0;  ///< degrees; below 90 it falls to the breakaway
     double slip = 0.0; ///< of the interval, m; > 0: reverse
@@ -30,7 +30,7 @@ struct FaultSegment {
 /// Whether the rock above the kink of a ramp-flat-ramp shears on reverse faults.
 /// @param segments  all that were found so far
 NamedNumbers measure_kink(const RunSoFar& run, const RampFlatRamp& parts,
-                          std::span<const Fault> faults, std::span<const FaultSegment> segments);
+                          std::span<const Fault> faults, std::span<const DetectedSegment> segments);
 
 std::span<const Quantity> kink_quantities();
 

@@ -136,7 +136,8 @@ std::vector<BuriedStratum> buried_strata(const Setting& setting, const RigidBase
         }
     if (places.empty())
         return {};
-    const OwnerMap map(state, Room(setting, base, state), well_fineness * 2.0 * state.mean_radius);
+    const OwnerMap map(state, RockSpace(setting, base, state),
+                       well_fineness * 2.0 * state.mean_radius);
     const std::vector<double> grains = grains_by_place(map, state, grain_density);
     std::vector<BuriedStratum> strata;
     for (const auto& [stratum, place] : places) {

@@ -127,7 +127,7 @@ private:
 };
 
 /// The parts of a line inside the room.
-std::vector<Polyline> within(const Room& room, const Polyline& line) {
+std::vector<Polyline> within(const RockSpace& room, const Polyline& line) {
     std::vector<Polyline> parts;
     double last = -1.0;
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -148,7 +148,7 @@ std::vector<Polyline> within(const Room& room, const Polyline& line) {
 }
 
 /// The line where the share is one half, in parts from base to base or wall.
-std::vector<Polyline> tops(const GridValues& share, const Room& room, double diameter) {
+std::vector<Polyline> tops(const GridValues& share, const RockSpace& room, double diameter) {
     std::vector<Polyline> found;
     for (const Polyline& line : contours(share, 0.5))
         for (Polyline& part : within(room, line))
@@ -292,7 +292,7 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     std::map<int, double> travel; // of the first disc, m
     for (std::size_t i = 0; i < strata.size(); ++i)
         travel.emplace(strata[i], d.start_travel[i]);
-    const Room room(setting, base, state);
+    const RockSpace room(setting, base, state);
     const OwnerMap map(state, room, fineness * diameter);
     const Shares shares(map, blur * diameter, strata);
     const std::vector<Polyline> traces = cutting_traces(faults);
@@ -335,7 +335,7 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
 std::vector<Polyline> free_surface(const Setting& setting, const RigidBase& base,
                                    const State& state) {
     const double diameter = 2.0 * state.mean_radius;
-    const Room room(setting, base, state);
+    const RockSpace room(setting, base, state);
     const OwnerMap map(state, room, fineness * diameter);
     const Shares shares(map, blur * diameter, strata_of(state, 0.0));
     return tops(shares.up_to(std::numeric_limits<int>::max()), room, diameter);

@@ -11,13 +11,13 @@ namespace listric::measures {
 
 using namespace dem;
 
-Room::Room(const Setting& setting, const RigidBase& base, const State& state)
+RockSpace::RockSpace(const Setting& setting, const RigidBase& base, const State& state)
     : floor(standing_base(base, state).surfaces.front().chain),
       // The backstop follows the breakaway; a box's floor goes on beyond its walls.
       left(setting.has_detachment ? floor.front().start.x : 0.0),
       right(setting.length + state.clock.extension.m) {}
 
-double Room::inside(Point p) const {
+double RockSpace::inside(Point p) const {
     return std::min({p.y - height_at(floor, p.x), p.x - left, right - p.x});
 }
 
@@ -110,7 +110,7 @@ void lower_surface(OwnerMap& map, const std::vector<std::size_t>& air, double re
 
 } // namespace
 
-OwnerMap::OwnerMap(const State& state, const Room& room, double fineness) : spacing(fineness) {
+OwnerMap::OwnerMap(const State& state, const RockSpace& room, double fineness) : spacing(fineness) {
     const ConstDiscColumns d = disc_columns(state);
     const double margin = 6.0 * state.mean_radius;
     const auto [bottom, top] = std::ranges::minmax(d.y);

@@ -11,11 +11,11 @@
 namespace listric::measures {
 
 /// Where rock can be: above the detachment as it stands, between the walls.
-struct Room {
+struct RockSpace {
     dem::Chain floor;
     double left = 0.0, right = 0.0; ///< m
 
-    Room(const Setting& setting, const dem::RigidBase& base, const dem::State& state);
+    RockSpace(const Setting& setting, const dem::RigidBase& base, const dem::State& state);
 
     /// Something that is > 0 inside, 0 on floor and walls, and linear near them, m.
     double inside(dem::Point p) const;
@@ -35,7 +35,7 @@ struct OwnerMap {
     /// Row of the disc, or one of the above; left to right, upward.
     std::vector<std::int32_t> owner;
 
-    OwnerMap(const dem::State& state, const Room& room, double spacing);
+    OwnerMap(const dem::State& state, const RockSpace& room, double spacing);
 
     dem::Point place(std::size_t column, std::size_t row) const {
         return {corner.x + spacing * static_cast<double>(column),

@@ -36,14 +36,14 @@ double growth_of(const Prediction& p) {
            std::max<double>(1.0, static_cast<double>(p.discs_at_start));
 }
 
-Excess excess_of(const Prediction& p, const Room& room) {
+Excess excess_of(const Prediction& p, const FreeSpace& room) {
     const double discs = std::max<double>(1.0, static_cast<double>(p.discs_at_end));
     return {std::max(p.cycles, p.work / discs) / most_cycles, p.memory / room.memory,
             p.disk / room.disk, growth_of(p) / most_growth};
 }
 
 /// Greatest excess.
-std::string size_of(const Prediction& p, const Room& room) {
+std::string size_of(const Prediction& p, const FreeSpace& room) {
     const Excess excess = excess_of(p, room);
     const double greatest = excess.greatest();
     if (greatest == excess.growth)
@@ -90,7 +90,7 @@ struct Cause {
     std::string parameter, value;
 };
 
-Cause cause_of(const Scene& scene, EffectList effects, const Room& room) {
+Cause cause_of(const Scene& scene, EffectList effects, const FreeSpace& room) {
     Cause cause;
     double least = std::numeric_limits<double>::infinity();
     for (const SceneTable& table : scene_tables(effects)) {
@@ -119,7 +119,7 @@ Cause cause_of(const Scene& scene, EffectList effects, const Room& room) {
 
 } // namespace
 
-std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, const Room& room) {
+std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, const FreeSpace& room) {
     const Prediction p = predict(scene);
     const Excess excess = excess_of(p, room);
     if (!(excess.greatest() > 1.0))
@@ -132,10 +132,10 @@ std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, cons
                     excess.disk == excess.greatest()};
 }
 
-Room room_for(const std::filesystem::path& output) {
+FreeSpace room_for(const std::filesystem::path& output) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const auto pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-    Room room{unknown, unknown};
+    FreeSpace room{unknown, unknown};
     if (pages > 0 && size > 0)
         room.memory = static_cast<double>(pages) * static_cast<double>(size);
     rlimit addresses{};

@@ -44,13 +44,13 @@ double greatest(const std::vector<Pick>& picks, double Pick::*member) {
 }
 
 /// Where a scene's model is, or may be drawn.
-struct Room {
+struct PickSpace {
     double left, right, bottom;
 
     bool holds(double x, double depth) const { return x >= left && x <= right && depth <= bottom; }
 };
 
-Room room_of(const Scene& scene, PickKind kind) {
+PickSpace room_of(const Scene& scene, PickKind kind) {
     const double length = scene.hanging_wall.length, thickness = scene.hanging_wall.thickness;
     const double right = length + greatest_extension(scene), margin = 0.01 * length;
     if (kind == PickKind::faults) // which are drawn, in the footwall, too
@@ -119,7 +119,7 @@ private:
     }
 
     void check_room() {
-        const Room room = room_of(scene_, kind_);
+        const PickSpace room = room_of(scene_, kind_);
         const auto is_in = [&](const Pick& pick) { return room.holds(pick.x, pick.depth); };
         const auto inside = static_cast<std::size_t>(std::ranges::count_if(picks_, is_in));
         if (2 * inside >= picks_.size())
@@ -141,7 +141,7 @@ private:
         warn(*first, what);
     }
 
-    std::string cure(const Room& room, const Pick& least, const Pick& most) const {
+    std::string cure(const PickSpace& room, const Pick& least, const Pick& most) const {
         const bool good_without =
             room.holds(least.x - shift_, 0.0) && room.holds(most.x - shift_, 0.0);
         if (shift_ != 0.0 && good_without)

@@ -39,7 +39,7 @@ TEST(Quality, AsksEveryQuestionOfAGoodRun) {
         keys.push_back(check.key);
         values.push_back(check.value);
         bounds.push_back(check.bound);
-        EXPECT_NE(check.verdict, Verdict::doubtful) << check.key;
+        EXPECT_NE(check.verdict, QualityVerdict::doubtful) << check.key;
         EXPECT_THAT(check.words, testing::EndsWith(".")) << check.key;
     }
     EXPECT_THAT(keys,
@@ -62,18 +62,19 @@ TEST(Quality, EveryBoundCanBeMissed) {
         JsonObject summary = good_run();
         summary[key] = value;
         for (const QualityCheck& check : checks_of(summary))
-            EXPECT_EQ(check.verdict == Verdict::doubtful, check.key == key) << key << check.key;
+            EXPECT_EQ(check.verdict == QualityVerdict::doubtful, check.key == key)
+                << key << check.key;
     }
 }
 
 TEST(Quality, OneVerdictIsToldEverywhere) {
-    EXPECT_EQ(verdict_of(checks_of(good_run())), Verdict::good);
+    EXPECT_EQ(verdict_of(checks_of(good_run())), QualityVerdict::good);
     EXPECT_THAT(verdict_lines(checks_of(good_run())),
                 testing::ElementsAre("good: quasi-static, mass error 9e-15, volume error 0.058 %, "
                                      "areas balance"));
     JsonObject leaky = good_run();
     leaky["volume_error_fraction"] = 1.6e-3;
-    EXPECT_EQ(verdict_of(checks_of(leaky)), Verdict::doubtful);
+    EXPECT_EQ(verdict_of(checks_of(leaky)), QualityVerdict::doubtful);
     EXPECT_THAT(verdict_lines(checks_of(leaky)),
                 testing::ElementsAre(testing::StartsWith("doubtful: quasi-static"),
                                      testing::HasSubstr("fault_weakening.update_interval_a")));
@@ -83,14 +84,14 @@ TEST(Quality, OneVerdictIsToldEverywhere) {
 TEST(Quality, AreasAreNotJudgedWhereTheirBoundsDoNotHold) {
     JsonObject summary = good_run();
     summary["area_balance"] = 0.6;
-    EXPECT_EQ(check_named(checks_of(summary, true), "area_balance").verdict, Verdict::note);
+    EXPECT_EQ(check_named(checks_of(summary, true), "area_balance").verdict, QualityVerdict::note);
     summary["extension_m"] = 4999.0;
-    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::note);
+    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, QualityVerdict::note);
     summary["extension_m"] = 4999.992; // of a run to 5 km, whose cycles make 0.02 m each
     summary["cycles"] = 249999.6;
-    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::doubtful);
+    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, QualityVerdict::doubtful);
     summary["extension_m"] = 5000.0;
-    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::doubtful);
+    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, QualityVerdict::doubtful);
 }
 
 TEST(Quality, SaysWhatIsTooNarrowAndLeavesOutWhatARunHasNot) {
@@ -109,7 +110,7 @@ TEST(Quality, APauseIsToBeARest) {
     JsonObject run = good_run();
     EXPECT_EQ(check_named(checks_of(run), "rest_strain_windows").key, ""); // no pause
     for (const auto& [windows, verdict] :
-         {std::pair(0.15, Verdict::good), std::pair(0.16, Verdict::doubtful)}) {
+         {std::pair(0.15, QualityVerdict::good), std::pair(0.16, QualityVerdict::doubtful)}) {
         run["rest_strain_windows"] = windows;
         EXPECT_EQ(check_named(checks_of(run), "rest_strain_windows").verdict, verdict);
     }

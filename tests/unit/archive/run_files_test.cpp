@@ -141,7 +141,7 @@ TEST_F(RunFiles, HalfWrittenOnesAreOnlyOurs) {
     EXPECT_THAT(names(remains(folder)), UnorderedElementsAreArray(ours));
 }
 
-TEST(SceneDifference, NamesTableParameterAndValues) {
+TEST(LineDifference, NamesTableParameterAndValues) {
     const auto a =
         scene_values("seed = 1  # of all\n[gravity]\n[bonds]\nlist = [\n    {a = 1},\n]\n"
                      "[output]\ninterval_m = 5\nreport = true\nseries = \"none\"\n");
@@ -164,7 +164,7 @@ TEST(SceneDifference, NamesTableParameterAndValues) {
     EXPECT_FALSE(scene_difference(a, d, SceneScope::results));
 }
 
-TEST(SceneDifference, AParameterThatAnEarlierProgramDidNotHaveHasItsDefault) {
+TEST(LineDifference, AParameterThatAnEarlierProgramDidNotHaveHasItsDefault) {
     const auto earlier = scene_values("[sedimentation]\n");
     EXPECT_FALSE(scene_difference(earlier, scene_values("[sedimentation]\nlevel_m = 0.0\n")));
     const auto found = scene_difference(earlier, scene_values("[sedimentation]\nlevel_m = 1.0\n"));
