@@ -6,7 +6,7 @@ Usage: from_discs.py RUN_DIR
 Needs `listric export faults RUN_DIR --format csv`, whose traces it takes, at whatever moments there are. A horizon on
 one side is a plane through the start heights of the discs within 3 diameters of it, 3 to 9 diameters beside the trace;
 its error, the scatter about the plane, half a diameter for the trace, and what discs out to 15 diameters change. It
-meets the trace within 6 diameters of one of its discs, and on this side of every other fault, or has no throw.
+meets the trace within 8 diameters of one of its discs, and on this side of every other fault, or has no throw.
 """
 
 import sys
@@ -53,7 +53,7 @@ def cut(line, others, places, heights, diameter):
     if not found:
         return None
     _, x, y, error = min(found)
-    if np.hypot(*(places - (x, y)).T).min() > 6 * diameter or any(parted(middle, np.array([x, y]), other) for other in others):
+    if np.hypot(*(places - (x, y)).T).min() > 8 * diameter or any(parted(middle, np.array([x, y]), other) for other in others):
         return None
     return y, error
 
