@@ -19,7 +19,7 @@ namespace {
 // Units.
 constexpr double nearest_disc = 3.0;                 ///< disc beside a trace: drag reaches less far
 constexpr double near_reach = 9.0, far_reach = 15.0; ///< disc beside a trace
-constexpr double straight_on = 6.0;               ///< from the next of a horizon's discs to its cut
+constexpr double straight_on = 8.0;               ///< from the next of a horizon's discs to its cut
 constexpr double extension_up = 15.0;             ///< the trace, upward
 constexpr double rock_band = 3.0, top_band = 2.0; ///< discs above and below a horizon that count
 constexpr double largest_throw_error = 2.0;       ///< of a throw
@@ -117,7 +117,7 @@ std::optional<HorizonCut> cut_of(const BedPlane& bed, std::span<const Mark> disc
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
         const Point a = line.points[k], step = line.points[k + 1] - a;
-        const double up = bed.above(a), down = bed.above(a + step);
+        const double up = bed.above(a), down = bed.above(line.points[k + 1]);
         if (!(up > 0.0 && down <= 0.0))
             continue;
         const Point at = a + (up / (up - down)) * step;

@@ -35,7 +35,7 @@ struct ThrownFault {
 /// pre-rift top, n the top of the n-th stratum, -n the n-th horizon below the pre-rift top.
 ///
 /// A horizon beside the fault is a plane through discs between 3 and 15 units away from it, where
-/// neither drag nor another fault reaches, and it meets the trace where it is straight on, within 6
+/// neither drag nor another fault reaches, and it meets the trace where it is straight on, within 8
 /// units of one of these discs and on this side of every other fault. Of rock before extension each
 /// disc tells by its start how far above the horizon it is; of sediment it tells only whether it is
 /// above, so that the tops of three strata in succession share one tilt. The trace is extended

@@ -79,13 +79,6 @@ public:
         return fault_cutoffs(state_, {.trace = trace, .others = others});
     }
 
-    /// From the upper end of the trace, down to a share of it, some diameters to the side above.
-    Polyline upper_part(double share, double aside) const {
-        Polyline points = line(aside);
-        points.resize(static_cast<std::size_t>(share * static_cast<double>(points.size())));
-        return points;
-    }
-
     /// Throw of a horizon, m.
     double throw_of(int number) const {
         const double height = number > 0 ? number * thickness : 1000.0 * number;
@@ -259,27 +252,19 @@ TEST(MadeFaults, CutoffsTellThicknessOnBothSides) {
     }
 }
 
-// Above the fault a second one runs down to half of its depth, so that only the lower half has
-// discs of the block next to it. Their beds fall with the fault and meet it far up, in the other
-// block: there they have no throw.
-TEST(MadeFaults, NoneWhereAHorizonIsTheOtherBlocks) {
-    for (const bool falls_left : {true, false})
-        for (const double tilt : {-20.0, -25.0, -30.0}) {
-            Made made({.dip = 45.0, .throw_down = 500.0, .tilt = tilt, .falls_left = falls_left});
-            const std::map<int, Cutoffs> all = made.cutoffs();
-            made.others = {made.upper_part(0.5, 2.0)};
-            const Point end = made.others.front().back();
-            std::size_t above = 0, lost = 0;
-            for (const auto& [number, at] : all) {
-                if (!at.is_resolved || at.hanging.y < end.y + 6.0 * d)
-                    continue;
-                ++above;
-                lost += !throws_of(made.cutoffs()).contains(number);
-            }
-            EXPECT_GE(above, 2u);
-            EXPECT_EQ(lost, above) << tilt;
-            EXPECT_GE(throws_of(made.cutoffs()).size(), 2u); // those of the lower half stay
-        }
+// A short fault between the discs that tell of a horizon and the place where that meets the trace.
+TEST(MadeFaults, NoneWhereAnotherFaultLiesBetween) {
+    for (const bool falls_left : {true, false}) {
+        Made made({.falls_left = falls_left});
+        const std::map<int, Cutoffs> before = made.cutoffs();
+        ASSERT_TRUE(throws_of(before).contains(-3));
+        const Point cut = before.at(-3).hanging + Point{(falls_left ? -3.0 : 3.0) * d, 0.0};
+        made.others = {{cut + Point{0.0, 1.2 * d}, cut - Point{0.0, 1.2 * d}}};
+        const std::map<int, double> throws = throws_of(made.cutoffs());
+        EXPECT_FALSE(throws.contains(-3));
+        EXPECT_TRUE(throws.contains(0));
+        EXPECT_TRUE(throws.contains(-5));
+    }
 }
 
 TEST(MadeFaults, NoneWhereStrataAreThinnerThanThreeDiscs) {
