@@ -399,6 +399,20 @@ class Reader(unittest.TestCase):
             with self.assertRaisesRegex(listric.ListricError, next(iter(values))):
                 snapshot.raster("id", **values)
 
+    def test_a_history_of_another_run_is_told(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            listric.Run(self.folder / "run").history
+        folder = self.copy()
+        text = (folder / "history.csv").read_text()
+        rows = text.splitlines(keepends=True)
+        (folder / "history.csv").write_text("".join([*rows[:-1], rows[-1].replace("1", "2")]))
+        with self.assertWarnsRegex(UserWarning, "history.csv: is of another run than the newest snapshot"):
+            listric.Run(folder).history
+        (folder / "history.csv").write_text("".join(rows[:-1]))
+        with self.assertWarnsRegex(UserWarning, "history.csv: is older than the newest snapshot"):
+            listric.Run(folder).history
+
     def test_a_moment_is_as_strict_as_in_calls(self):
         self.assertIs(self.run_.at("0.4km"), self.run_.at(400.0))
         for moment, said in ((99e3, "from 0 to 400 m"), ("99km", "from 0 to 400 m"), (-5.0, "no snapshot there"), (0.4, "0.4km"),

@@ -94,10 +94,8 @@ class Run:
         snapshot has them. An end between two rows has none: `summary` has its measures."""
         self._tell_reservations()
         table = read_csv(self.folder / "history.csv", self._unit_of)
-        kept = self._rows_of_newest()
-        if kept > table.rows:
-            warnings.warn(f"{self.folder / 'history.csv'}: is older than the newest snapshot, whose history has {kept} rows "
-                          f"instead of {table.rows}: `listric run ... --resume` makes it again", stacklevel=2)
+        if why := self._objection_to_history(table):
+            warnings.warn(f"{self.folder / 'history.csv'}: {why}: `listric run ... --resume` makes it again", stacklevel=3)
         return table
 
     @cached_property
@@ -150,12 +148,17 @@ class Run:
         with reading(self.folder / "scene.toml"):
             return float(self.scene.get("output", {}).get("interval_m", 500.0))
 
-    def _rows_of_newest(self) -> int:
-        """Rows of the history that the newest snapshot has kept; 0 where none can be read."""
+    def _objection_to_history(self, table) -> str:
+        """Compares history.csv with the history that the newest snapshot has kept; empty where none can be read."""
         try:
-            return self.snapshots[-1].table("run/history").rows if self.snapshots else 0
-        except RunError:
-            return 0
+            kept = self.snapshots[-1].table("run/history")
+            if kept.rows > table.rows:
+                return f"is older than the newest snapshot, whose history has {kept.rows} rows instead of {table.rows}"
+            same = [np.array_equal(kept[name], table[name][:kept.rows], equal_nan=True)
+                    for name in kept if name in table and kept.rows]
+        except (IndexError, RunError, UnknownName, TypeError):
+            return ""
+        return "" if all(same) else "is of another run than the newest snapshot"
 
     def _tell_reservations(self) -> None:
         """Warns once, at the first look into the run's results."""
