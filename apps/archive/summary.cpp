@@ -232,7 +232,7 @@ std::string summary_json(const SummaryContent& content) {
 double cycle_of(const JsonObject& summary) {
     const auto travel = number_at(summary, travel_column); // with stages
     const double way = travel.value_or(number_at(summary, "extension_m").value_or(0.0));
-    const double cycles = number_at(summary, "cycle").value_or(0.0);
+    const double cycles = number_at(summary, "cycles").value_or(0.0);
     return cycles > 0.0 ? way / cycles : 0.0;
 }
 

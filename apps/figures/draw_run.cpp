@@ -1,8 +1,8 @@
 #include "apps/figures/draw_run.hpp"
 
+#include "apps/archive/error_sentence.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
-#include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"

@@ -1,6 +1,7 @@
 // Errors of results by recorded runs.
 
 #include "apps/archive/dictionary.hpp"
+#include "apps/archive/error_sentence.hpp"
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/known_errors.hpp"
 #include "apps/model/effects.hpp"
