@@ -85,8 +85,8 @@ void add_volume(std::vector<QualityCheck>& all, const JsonObject& summary) {
                    fmt::format("below {:g} %", 100.0 * most_volume_error), verdict_of(good),
                    good ? "Fault zones keep their volume when they weaken."
                         : "Weak zones change their volume: try a smaller "
-                          "fault_weakening.update_interval_a. Calibrated rock dilates, however "
-                          "small that is.",
+                          "update_interval_a of the weakening. Faults of calibrated rock "
+                          "dilate, however small that is.",
                    fmt::format("volume error {:.2g} %", 100.0 * *error)});
 }
 

@@ -45,7 +45,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
 /// "good", "doubtful" or "note".
 const char* name_of(QualityVerdict verdict);
 
-/// Of all of a run's questions: doubtful if one is; a note where nothing is judged.
+/// Verdict on a run by all of its questions: doubtful if one is; a note where nothing is judged.
 QualityVerdict verdict_of(const std::vector<QualityCheck>& checks);
 
 /// "good: quasi-static, mass error 2e-15", and below it why it is doubtful, if it is.

@@ -273,7 +273,7 @@ Exchange exchange(const AccuracyChoice& now, const AccuracyChoice& other,
     return found;
 }
 
-/// What more time brings: another choice, if it lowers more errors than it raises.
+/// Another choice that more time brings, if it lowers more errors than it raises.
 std::string bought(const AccuracyChoice& now, const std::optional<AccuracyChoice>& more,
                    std::span<const ErrorTarget> targets) {
     const Exchange errors = more ? exchange(now, *more, targets) : Exchange();

@@ -1,8 +1,8 @@
 #include "apps/figures/draw_run.hpp"
 
+#include "apps/archive/error_sentence.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/folder/json_file.hpp"
-#include "apps/archive/folder/known_errors.hpp"
 #include "apps/archive/folder/provenance.hpp"
 #include "apps/archive/folder/run_folder.hpp"
 #include "apps/archive/folder/run_history.hpp"

@@ -111,7 +111,7 @@ constexpr Measure<M> of_material[] = {
     {"broken_areal_share", "1", "share of the basement broken areally",
      "share of the basement, by area, that is broken and more than 4 diameters from sound rock",
      taken<&M::broken, &BrokenRock::areal_share>},
-    {"old_sediment_bonded_fraction", "1", "bonded share of old sediment",
+    {"old_sediment_bonded_fraction", "1", "old sediment: bonded share",
      "bonded share of the touching pairs of sediment discs deeper than 1.5 km and older than "
      "2 km of travel (200,000 a at 1 cm/a)",
      taken<&M::old_sediment_bonded_fraction>},
@@ -183,7 +183,7 @@ std::span<const Measure<Depocentre>> depocentre_measures() {
 }
 
 constinit const Quantity old_sediment_bonded_profile{
-    "old_sediment_bonded_profile", "", "bonded share of old sediment, by depth",
+    "old_sediment_bonded_profile", "", "old sediment: bonded share by depth",
     "bonded share of the touching pairs of sediment discs older than 2 km of travel "
     "(200,000 a at 1 cm/a), by depth"};
 

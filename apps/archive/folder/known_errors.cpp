@@ -2,7 +2,6 @@
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/scene_lines.hpp"
-#include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/machine/resources.hpp"
@@ -225,32 +224,6 @@ std::string error_text(const std::string& key, double value) {
     if (key.ends_with("_m"))
         return fmt::format("{:.2g} km", value / 1e3);
     return fmt::format("{:.2g}{}", value, key.ends_with("_diameters") ? " discs" : "");
-}
-
-std::string error_sentence(const nlohmann::ordered_json& summary) {
-    const auto list = summary.find(std::string(known_errors_quantity.name));
-    if (list == summary.end() || !list->is_array() || list->empty())
-        return "";
-    std::vector<std::string> parts, none;
-    for (const JsonObject& one : *list) {
-        const std::string key = text_at(one, "measure"), label(label_of(key));
-        std::vector<std::string> known;
-        for (const auto& [name, words] :
-             {std::pair("resolution", "resolution"), std::pair("speed", "speed"),
-              std::pair("spread", "seeds ±")})
-            if (const auto value = number_at(one, name))
-                known.push_back(fmt::format("{} {}", words, error_text(key, *value)));
-        if (known.empty())
-            none.push_back(label);
-        else
-            parts.push_back(fmt::format("{}: {}{}", label, fmt::join(known, ", "),
-                                        known.size() < 3 ? ", else unknown" : ""));
-    }
-    if (parts.empty())
-        return "Errors: unknown; no recorded runs are like this one.";
-    if (!none.empty())
-        parts.push_back(fmt::format("unknown: {}", fmt::join(none, ", ")));
-    return fmt::format("Errors by recorded runs: {}.", fmt::join(parts, "; "));
 }
 
 } // namespace listric::archive

@@ -63,9 +63,6 @@ nlohmann::ordered_json known_errors_json(const Scene& scene, double extension);
 extern const Quantity known_errors_quantity;
 std::span<const Quantity> error_fields();
 
-/// What a summary says of its errors, in one sentence; empty where it is older than that.
-std::string error_sentence(const nlohmann::ordered_json& summary);
-
 /// A number of a measure with its unit and a sensible number of digits: "0.12 km", "0.03°".
 std::string error_text(const std::string& key, double value);
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
-FOOTWALL, FOOTWALL_WORD = "#efeeeb", "footwall"
+FOOTWALL, FOOTWALL_WORD, EXAGGERATED = "#efeeeb", "footwall", "heights × "
 # Slip-rate classes of active faults: upper bound over the rate of the wall, line width (pt), label.
 FAULT_CLASSES = ((0.05, 0.8, "slip < {1:g} mm/a"), (0.1, 1.5, "slip {0:g}–{1:g} mm/a"),
                  (math.inf, 2.4, "slip > {0:g} mm/a"))
@@ -54,7 +54,7 @@ def exaggeration(ax) -> float:
 
 
 def exaggeration_text(ratio: float) -> str:
-    return "no vertical exaggeration" if abs(ratio - 1.0) < 0.02 else f"heights × {ratio:.1f}"
+    return "no vertical exaggeration" if abs(ratio - 1.0) < 0.02 else f"{EXAGGERATED}{ratio:.1f}"
 
 
 def depth_axis(ax, label: str) -> None:

@@ -69,7 +69,7 @@ def origin(names: Sequence[str], frame: Frame, order: Order) -> str:
 
 
 def frequency_of(names: Sequence[str], frame: Frame) -> float | None:
-    """Of the wavelet of a seismic image among these panels, Hz."""
+    """Frequency of the wavelet of a seismic image among these panels, Hz."""
     for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
         if name in names and axes is not None:
             return axes[3]

@@ -5,7 +5,7 @@ Lengths are in inches. Panels are those of the pages; only what is around them d
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from axes import FOOTWALL_WORD, exaggeration, exaggeration_text
+from axes import EXAGGERATED, FOOTWALL_WORD, exaggeration, exaggeration_text
 from frame import Frame
 from page import add_axes, extension_text, letter, moment_text, name_distance, time_text, without_source
 from panels import panel_of
@@ -154,9 +154,10 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
     titles = [folded(row.title, beside, POINTS) for row in rows]
     above = [ABOVE + LABEL_LINE * title.count("\n") + row.overhang for row, title in zip(rows, titles)]
     legends = [legend_height(row.entries, beside) for row in rows]
+    under = [max(row.overhang, XLABEL if row is rows[-1] else 0.0) for row in rows]
     headline = [] if order.plain else headline_lines(frame, width)   # text, weight
     top = 0.155 * len(headline) + (0.06 if headline else 0.0)
-    total = top + sum(above) + sum(row.high + max(row.overhang - GAP, 0.0) for row in rows) + sum(legends) + GAP * (len(rows) - 1) + XLABEL + 0.04
+    total = top + sum(above) + sum(row.high for row in rows) + sum(under) + sum(legends) + GAP * (len(rows) - 1) + 0.04
     figure = new_figure(width, total, order.dpi or PRINT_DPI)
     across, up = figure.get_size_inches()
     for line, (text, weight) in enumerate(headline):
@@ -182,9 +183,8 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
             ax.text(0.99, 0.03, exaggeration_text(ratio), transform=ax.transAxes, fontsize=8, ha="right", va="bottom",
                     color=FAINT, zorder=9)
         said.append(f"{row.title[0].lower() + row.title[1:]}" + ("" if ratio is None else f" ({exaggeration_text(ratio)})"))
-        below = max(XLABEL if lowest else 0.0, row.overhang - GAP if not lowest else 0.0)
-        draw_legend(figure, row.entries, left, y - below - 0.04, beside)
-        y -= legends[index] + max(row.overhang - GAP, 0.0) + GAP
+        draw_legend(figure, row.entries, left, y - under[index] - 0.04, beside)
+        y -= under[index] + legends[index] + GAP
     thin_lines(figure)
     set_texts(figure)
     hide_what_has_no_room(figure)
@@ -192,15 +192,25 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
 
 
 def hide_what_has_no_room(figure: Figure) -> None:
-    """The word "footwall" stands where nothing else does, and within its panel."""
+    """The word "footwall" stands where nothing else does, and within its panel; how heights are exaggerated stands at
+    the first place along the bottom that is free."""
     renderer = figure.canvas.get_renderer()
     for ax in figure.axes:
         words = [text for text in ax.texts if text.get_text()]
-        for text in words:
+
+        def is_free(text) -> bool:
             box = text.get_window_extent(renderer)
             others = [other.get_window_extent(renderer) for other in words if other is not text and other.get_visible()]
-            if text.get_text() == FOOTWALL_WORD and (box.y1 > ax.bbox.y1 or box.x1 > ax.bbox.x1 or any(box.overlaps(other) for other in others)):
+            return box.y1 <= ax.bbox.y1 and box.x1 <= ax.bbox.x1 and not any(box.overlaps(other) for other in others)
+
+        for text in words:
+            if text.get_text() == FOOTWALL_WORD and not is_free(text):
                 text.set_visible(False)
+            elif text.get_text().startswith(EXAGGERATED):
+                for text_x, side in ((0.99, "right"), (0.5, "center"), (0.01, "left")):
+                    text.set(x=text_x, ha=side)
+                    if is_free(text):
+                        break
 
 
 def trial(frame: Frame, name: str) -> Row:
@@ -228,15 +238,21 @@ def fit_axes(ax, cax, row: Row) -> None:
         part.xaxis.labelpad = 2
     if row.name != "seismic":
         ax.yaxis.set_major_locator(MaxNLocator(max(1, min(5, int(row.high / 0.17))), steps=[1, 2, 5, 10]))
-    if not cax.axison:
-        return
-    (low, high), ticks = cax.get_ylim(), cax.get_yticks()
-    texts = cax.yaxis.get_major_formatter().format_ticks(ticks)
+    for part in (ax, cax):
+        if part.axison:
+            thin_ticks(part, row.high)
+
+
+def thin_ticks(axes, height: float) -> None:
+    """Leaves the numbers along the y axis that have room, from the first on."""
+    (first, last), ticks = axes.get_ylim(), axes.get_yticks()
+    texts = axes.yaxis.get_major_formatter().format_ticks(ticks)
     kept: list[tuple[float, str]] = []
     for tick, text in zip(ticks, texts):
-        if low <= tick <= high and (not kept or (tick - kept[-1][0]) / (high - low) * row.high >= TICK_ROOM):
+        place = (tick - first) / (last - first) * height
+        if -1e-9 <= place <= height * (1 + 1e-9) and (not kept or abs(tick - kept[-1][0]) / abs(last - first) * height >= TICK_ROOM):
             kept.append((tick, text))
-    cax.set_yticks([tick for tick, _ in kept], [text for _, text in kept])
+    axes.set_yticks([tick for tick, _ in kept], [text for _, text in kept])
 
 
 def headline_lines(frame: Frame, width: float) -> list[tuple[str, str]]:

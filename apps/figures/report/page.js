@@ -169,8 +169,8 @@ async function addFootwallLegend() {
   const run = page.runs.find(isIn.footwall);
   const lines = run && page.shown.has("footwall") && await run.loadLines(momentOf(run));
   if (lines?.footwall)
-    $("legend").append(`; footwall: change of shear stress, white 0, dark ${digits(lines.footwall.end_mpa, 2)} MPa or more`);
-  else if (lines) $("legend").append("; the footwall's stress is there at the figures' moments and at the end");
+    $("legend").append(`footwall: change of shear stress, white 0, dark ${digits(lines.footwall.end_mpa, 2)} MPa or more`);
+  else if (lines) $("legend").append("the footwall's stress is there at the figures' moments and at the end");
 }
 
 /** "5.00 km, 0.500 Myr" */
@@ -377,7 +377,12 @@ function addControls() {
   on("second", "change", drawCharted);
   addSaves(on);
   document.addEventListener("keydown", onKey);
-  window.addEventListener("resize", () => { layOut(); draw().catch(trouble); });
+  window.addEventListener("resize", () => {
+    const before = page.sections[0].discCanvas.width;
+    layOut();
+    page.view.scale *= page.sections[0].discCanvas.width / before;   // as much of the section as before
+    draw().catch(trouble);
+  });
   page.chart = new HistoryChart($("history"), page.runs, travel => show(leader().nearest(travel)));
   if (measures.length) drawCharted();
 }

@@ -154,7 +154,7 @@ constexpr Measure<dem::LayerStress> of_layer[] = {
      taken<&dem::LayerStress::depth>},
     {"ratio", "1", "stress over weight", "vertical contact stress over the weight above",
      taken<&dem::LayerStress::ratio>},
-    {"after_event_ratio", "1", "stress over weight after compaction",
+    {"after_event_ratio", "1", "stress over weight just after an event",
      "the ratio in the first 0.5 m of extension after sediment has compacted",
      taken<&dem::LayerStress::after_event_ratio>},
     {"damping_share", "1", "weight held by damping",

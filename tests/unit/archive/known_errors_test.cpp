@@ -1,5 +1,6 @@
 // Errors of results by recorded runs.
 
+#include "apps/archive/error_sentence.hpp"
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/known_errors.hpp"
 #include "apps/archive/tables/dictionary.hpp"

@@ -77,7 +77,7 @@ TEST(Quality, OneVerdictIsToldEverywhere) {
     EXPECT_EQ(verdict_of(checks_of(leaky)), QualityVerdict::doubtful);
     EXPECT_THAT(verdict_lines(checks_of(leaky)),
                 testing::ElementsAre(testing::StartsWith("doubtful: quasi-static"),
-                                     testing::HasSubstr("fault_weakening.update_interval_a")));
+                                     testing::HasSubstr("update_interval_a")));
     EXPECT_TRUE(verdict_lines({}).empty()); // nothing is judged
 }
 

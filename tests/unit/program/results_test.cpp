@@ -86,7 +86,7 @@ TEST(Results, SayWhatIsDoubtfulAndWhy) {
     EXPECT_THAT(
         result_lines({good_measures(), {}, {}, checks_of({{"volume_error_fraction", 2e-3}})})
             .back(),
-        HasSubstr("fault_weakening.update_interval_a"));
+        HasSubstr("update_interval_a"));
 }
 
 TEST(Results, LogHasTimesAndRepeatsItsWarnings) {
