@@ -1,7 +1,7 @@
 #include "apps/archive/error_sentence.hpp"
 
-#include "apps/archive/dictionary.hpp"
-#include "apps/archive/known_errors.hpp"
+#include "apps/archive/folder/known_errors.hpp"
+#include "apps/archive/tables/dictionary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/archive/json_file.hpp"
+#include "apps/archive/folder/json_file.hpp"
 
 #include <string>
 
