@@ -16,11 +16,9 @@ struct Picture {
 /// Pixels that a picture may have: more are no section, and no program could show them.
 inline constexpr double most_pixels = 1e8;
 
-/// Reads a PNG or JPEG, whatever its name ends with, and makes sure that it is whole. Of a PNG:
-/// signature, size, checksum of every chunk, as many bytes as its pixels need (PNG, second edition,
-/// ISO 15948). Of a JPEG: size, lengths of all segments, a scan, its end (ITU-T T.81, annex B);
-/// damage between them shows as wrong colours, as a JPEG has no checksums. Throws
-/// UsageError, which names the file, what it is, and a cure.
+/// Reads a PNG or JPEG, whatever its name ends with: signature, size and whether its end is there
+/// (PNG, second edition, ISO 15948; JPEG, ITU-T T.81, annex B). Whoever draws it finds what is
+/// damaged between. Throws UsageError, which names the file, what it is, and a cure.
 Picture read_picture(const std::filesystem::path& file);
 
 } // namespace listric
