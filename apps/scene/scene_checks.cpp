@@ -160,13 +160,10 @@ void check_picks(const Scene& scene, const toml::table& document) {
         check("observed.fault_lines", line.x.size(), line.depth.size());
 }
 
-/// That a picture has its place, and a place its picture.
+/// That a picture has its place.
 void check_picture(const Observed& observed, const toml::table& document) {
-    if (observed.picture.empty() && observed.corners.empty())
-        return;
     if (observed.picture.empty())
-        fail(entry_at(document, "observed.corners_m"),
-             "is the place of observed.picture, which is not there; add it or leave out both");
+        return;
     if (const std::string why = objection_to_corners(observed.corners); !why.empty())
         fail(entry_at(document, "observed.corners_m"),
              fmt::format("{}; needs [x0, z0, x1, z1] in metres, of the picture's upper left and "

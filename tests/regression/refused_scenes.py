@@ -102,7 +102,6 @@ def refused_scenes():
         # picks and the picture
         "a file of picks that is not there": lis1 + table("[observed]", horizons='"no-such.csv"'),
         "a picture without its place": lis1 + table("[observed]", picture='"section.png"'),
-        "a place without its picture": lis1 + table("[observed]", corners_m="[0.0, 0.0, 40000.0, 15000.0]"),
         "corners upside down": lis1 + table("[observed]", picture='"section.png"', corners_m="[0.0, 15000.0, 40000.0, 0.0]"),
         "three corners": lis1 + table("[observed]", picture='"section.png"', corners_m="[0.0, 15000.0, 40000.0]"),
     }

@@ -258,8 +258,7 @@ std::string scene_schema(EffectList effects) {
                 parameter_schema(parameter, table.source_defaults);
     }
     allow_sources(properties["detachment"]);
-    properties["observed"]["dependencies"] = {{"picture", {"corners_m"}},
-                                              {"corners_m", {"picture"}}};
+    properties["observed"]["dependencies"] = {{"picture", Json::array({"corners_m"})}};
     schema["required"].push_back("hanging_wall");
     schema["dependencies"] = dependencies(effects);
     return finished_schema("A scene of Listric", schema);
