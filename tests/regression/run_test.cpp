@@ -1045,7 +1045,7 @@ TEST_F(RunTest, TheHistoryEndsWhereTheSummaryDoes) {
 TEST_F(RunTest, TheTimeIsAccountedFor) {
     const auto start = std::chrono::steady_clock::now();
     const fs::path output = folder / "run";
-    for (const char* until : {"150", "300"}) {
+    for (const char* until : {"150m", "300m"}) {
         ASSERT_EQ(call_run(output, {"--set", slowly, "--until", until, "--resume"}).code, 0);
         const json all = summary(output);
         const double wall = all["wall_s"].get<double>();
