@@ -19,7 +19,7 @@ namespace {
 constexpr const char* variable = "LISTRIC_RANK_REPORTS";
 
 /// A report: written and read as a whole, for it is shorter than a pipe's atomic writes are.
-struct Report {
+struct RankReport {
     int rank, process;
     int code; ///< -1: it begins
 };
@@ -34,7 +34,7 @@ int watch_of(int process) {
 #endif
 }
 
-void report(const Report& said) {
+void report(const RankReport& said) {
     const char* pipe = std::getenv(variable);
     const int to = pipe && *pipe ? open(pipe, O_WRONLY | O_NONBLOCK | O_CLOEXEC) : -1;
     if (to < 0)
@@ -87,7 +87,7 @@ std::optional<int> RankReports::root_code() const {
 }
 
 void RankReports::hear() {
-    for (Report said{}; read_ >= 0 && ::read(read_, &said, sizeof said) == sizeof said;) {
+    for (RankReport said{}; read_ >= 0 && ::read(read_, &said, sizeof said) == sizeof said;) {
         Rank& rank = ranks_[said.rank];
         if (said.code >= 0)
             rank.code = said.code;
