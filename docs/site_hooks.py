@@ -191,6 +191,14 @@ def with_still(match):
 
 
 def on_post_page(output, page, config):
+    return with_names(output)
+
+
+def on_post_template(output, template_name, config):
+    return with_names(output)  # 404.html
+
+
+def with_names(output):
     """Names for the theme's bar, and for its buttons that show a sign alone."""
     output = output.replace('<div class="navbar fixed-top', '<div role="navigation" aria-label="Site" class="navbar fixed-top', 1)
     for button, name in (('data-target="#navbar-collapse"', "Menu"), ('data-target="#toc-collapse"', "Contents of this page")):
