@@ -250,7 +250,8 @@ RecordedWays recorded_ways(const SceneRequest& request, int threads) {
     return choices;
 }
 
-/// Labels of the measures whose promised errors another choice lowers, and of those that it raises.
+/// Labels of the measures whose promised errors another choice lowers, and of those that it raises,
+/// by a twentieth or more: less is chance.
 struct Exchange {
     std::vector<std::string_view> lower, higher;
 };
@@ -265,23 +266,25 @@ Exchange exchange(const AccuracyChoice& now, const AccuracyChoice& other,
         if (!before || !after ||
             (!targets.empty() && std::ranges::count(targets, error.key, &ErrorTarget::key) == 0))
             continue;
-        if (*after < *before)
+        if (*after < 0.95 * *before)
             found.lower.push_back(archive::label_of(error.key));
-        else if (*after > *before)
+        else if (*after > 1.05 * *before)
             found.higher.push_back(archive::label_of(error.key));
     }
     return found;
 }
 
-/// Another choice that more time brings, if it lowers more errors than it raises.
+/// Another choice that more time brings, if it lowers what is asked for, and of all errors more
+/// than it raises.
 std::string bought(const AccuracyChoice& now, const std::optional<AccuracyChoice>& more,
                    std::span<const ErrorTarget> targets) {
-    const Exchange errors = more ? exchange(now, *more, targets) : Exchange();
-    if (errors.lower.size() <= errors.higher.size())
-        return " buys nothing that is recorded\n";
-    const std::string but = errors.higher.empty()
-                                ? ""
-                                : fmt::format("  no smaller: {}\n", fmt::join(errors.higher, "; "));
+    const Exchange all = more ? exchange(now, *more, {}) : Exchange();
+    const Exchange asked = more ? exchange(now, *more, targets) : Exchange();
+    if (asked.lower.empty() || asked.lower.size() <= asked.higher.size() ||
+        all.lower.size() <= all.higher.size())
+        return " buys no smaller errors by what is recorded\n";
+    const std::string but =
+        all.higher.empty() ? "" : fmt::format("  larger: {}\n", fmt::join(all.higher, "; "));
     return fmt::format(" buys\n  {}\n{}{}", name_of(*more), error_table(*more), but);
 }
 

@@ -184,6 +184,23 @@ class Underlay(Folder):
                 if kind in (4, 6):
                     np.testing.assert_array_equal(found[:, :, 3], 1.0)
 
+    def test_it_is_no_larger_than_where_it_is_drawn(self):
+        ramp = Image.fromarray(np.tile(np.linspace(0, 255, 800).round().astype(np.uint8), (600, 1)))
+        for name, one, form in (("grey", ramp, "png"), ("jpeg", ramp.convert("RGB"), "jpeg"), ("rgba", ramp.convert("RGBA"), "png"),
+                                ("16", Image.fromarray(np.asarray(ramp).astype(np.uint16) * 257), "png")):
+            one.save(self.path("section.dat"), format=form)
+            found, part = picture.read_picture(self.path("section.dat"), size=(100.0, 60.0))
+            self.assertEqual((found.shape[:2], found.dtype, part), ((60, 100), np.uint8, (0.0, 0.0, 1.0, 1.0)), name)
+            np.testing.assert_allclose(found[30, ::33, 0], np.linspace(0, 255, 100)[::33], atol=4, err_msg=name)
+            found, part = picture.read_picture(self.path("section.dat"), part=(0.5, 0.25, 0.75, 0.5))   # all of its pixels
+            self.assertEqual((found.shape[:2], part), ((150, 200), (0.5, 0.25, 0.75, 0.5)), name)
+            self.assertAlmostEqual(float(found[0, 0, 0]), 127.7, delta=2)
+
+    def test_a_figure_of_too_many_dots_is_refused_with_those_that_fit(self):
+        with self.assertRaisesRegex(plot.InputError, r"500 x 300 mm at 2400 dpi has 1,339 million pixels.*--dpi 655 or less"):
+            plot.new_figure(500 / 25.4, 300 / 25.4, 2400)
+        plot.new_figure(500 / 25.4, 300 / 25.4, 655)
+
     def test_a_photograph_is_turned_as_its_camera_says(self):
         lying = np.zeros((16, 32, 3), np.uint8)
         lying[:, 16:] = (255, 128, 0)                        # dark left, orange right
@@ -666,7 +683,7 @@ class Drawing(Folder):
         def shown(title):
             return page.title_of(self.frame({"title": title}))
         short = "LIS1: 90-degree listric detachment, 10 km of extension [paper, experiment I]"
-        self.assertEqual(shown(short), short)
+        self.assertEqual(shown(short), short.removesuffix(" [paper, experiment I]"))
         self.assertEqual(shown("RFR: ramp, flat at 7 km and second ramp, 10 km of extension [paper, experiment III]"),
                          "RFR: ramp, flat at 7 km and second ramp, 10 km of extension")
         self.assertEqual(shown("LIS1 filled with mud: " + 8 * "overpressure "), "LIS1 filled with mud")
@@ -677,7 +694,7 @@ class Drawing(Folder):
         frame = self.frame({"title": title, "extension_m": 4600.0, "way_m": 5400.0, "extension_km": "5.4"})
         figure = sections.draw_figure(frame, ["strata"], 20)
         headline = next(text for text in figure.texts if text.get_weight() == "bold")
-        self.assertTrue(headline.get_text().startswith("Inversion of LIS2: 4.6 km of extension after"))
+        self.assertTrue(headline.get_text().startswith("Inversion of LIS2: 4.6 km of net extension after"))
         self.assertLess(headline.get_window_extent().x1, figure.bbox.x1)
         self.assertIn(title, page.footer(frame)[0])   # in full
 
@@ -963,12 +980,18 @@ class Print(Folder):
         self.assertNotIn(b"/Type3", text)
 
     def test_captions_tell_what_is_shown_and_how_it_was_made(self):
-        order = self.order(0.0, only=("strata", "seismic"), caption=True)
+        order = self.order(0.0, only=("strata", "seismic"), caption=True, errors="Errors by recorded runs: tilt: 0.1.")
         sections.save_sections([self.wide()], self.folder, order)
-        text = Path(self.path("caption.txt")).read_text(encoding="utf-8")
-        for words in ("strata-2.0km-200dpi\n", "seismic-2.0km-200dpi\n", "LIS1: 90-degree listric detachment", "0.20 Myr", "1 cm/yr", "4 discs", "93.1 m",
-                      "seed 1", "commit abc", "scene hash 123", "Listric 9", "25 Hz", "neither migration nor noise", "Wyllie"):
+        text, origin = (Path(self.path(name)).read_text(encoding="utf-8") for name in ("caption.txt", "origin.txt"))
+        for words in ("strata-2.0km-200dpi\n", "seismic-2.0km-200dpi\n", "LIS1: 90-degree listric detachment", "0.20 Myr", "1 cm/yr", "Listric 9", "25 Hz",
+                      "neither migration nor noise"):
             self.assertIn(words, text)
+        for words in ("strata-2.0km-200dpi\n", "4 discs", "93.1 m", "seed 1", "commit abc", "scene hash 123", "Listric 9", "Wyllie", "tilt: 0.1"):
+            self.assertIn(words, origin)
+            self.assertNotIn("commit", text)
+        self.assertNotIn("tilt", text)
+        usual = caption.caption(journal.DEFAULT, ["x (no vertical exaggeration)"] * 2, self.wide(), self.order(85.0))
+        self.assertLess(len(usual), 500)
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".png")),
                          ["seismic-2.0km-200dpi.png", "strata-2.0km-200dpi.png"])
         with self.assertRaisesRegex(plot.InputError, "none of kinematics; it has strata"):

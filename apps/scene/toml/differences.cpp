@@ -8,27 +8,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
+#include <utility>
 
 namespace listric {
 
 namespace {
 
-/// Two numbers with the digits that tell them apart, six at least.
+/// A value as a scene writes it, with numbers of so many digits; words stay.
+std::string rounded(const std::string& value, int digits) {
+    static const std::regex number(R"(-?[0-9]+\.[0-9]+([eE][-+]?[0-9]+)?)"); // whole ones are exact
+    if (value.find('"') != std::string::npos)
+        return value;
+    std::string shown;
+    auto from = value.begin();
+    for (std::sregex_iterator found(value.begin(), value.end(), number), end; found != end;
+         ++found) {
+        shown.append(from, (*found)[0].first);
+        shown += text(*parse_number(
+            fmt::format("{:.{}g}", parse_number(found->str()).value_or(0.0), digits)));
+        from = (*found)[0].second;
+    }
+    return shown.append(from, value.end());
+}
+
+/// Two values with the digits that tell them apart, six at least.
 void shorten(std::string& first, std::string& second) {
     constexpr int fewest = 6, most = 17;
-    const auto a = parse_number(first), b = parse_number(second);
-    if (!a || !b || (first + second).find('.') == std::string::npos) // whole numbers are exact
-        return;
-    for (int count = fewest; count < most; ++count) {
-        const auto rounded = [&](double value) {
-            return text(*parse_number(fmt::format("{:.{}g}", value, count)));
-        };
-        if (rounded(*a) == rounded(*b))
-            continue;
-        first = rounded(*a);
-        second = rounded(*b);
-        return;
-    }
+    for (int digits = fewest; digits < most; ++digits)
+        if (std::string a = rounded(first, digits), b = rounded(second, digits); a != b) {
+            first = std::move(a);
+            second = std::move(b);
+            return;
+        }
 }
 
 void compare(const std::string& before, const std::vector<Parameter>& parameters, const void* first,

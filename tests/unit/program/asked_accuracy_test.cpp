@@ -160,6 +160,8 @@ TEST(AskedAccuracy, SaysWhereNothingIsRecorded) {
     const AskedAccuracy asked{.within = "1h", .error = ""};
     EXPECT_THAT(explain_asked(asked, {.scene = "pure-shear"}, 1),
                 HasSubstr("no run of pure-shear to 2 km of extension is recorded"));
+    EXPECT_THAT(explain_asked({.within = "", .error = "cutoff=0.01km"}, {.scene = "lis1"}, 1),
+                testing::AllOf(HasSubstr("cutoff, depth "), testing::Not(HasSubstr("cutoff_z"))));
     SceneRequest request{.scene = "lis1", .set = {"fault_weakening.interval_a=40000"}};
     EXPECT_THAT(message([&] { apply_asked(asked, request, 1); }),
                 HasSubstr("its fault_weakening.interval_a is not the one of the recorded runs"));

@@ -193,6 +193,13 @@ TEST_F(TableArray, IsComparedTableByTable) {
     const auto found = scene_differences(one, other, effects());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].path, "marker[1].depth_m");
+    const auto digits = [&](const char* change) {
+        const SceneDifference one_of =
+            scene_differences(one, load(two, {.set = {change}}), effects())[0];
+        return one_of.first + " " + one_of.second;
+    };
+    EXPECT_EQ(digits("marker.1.depth_m=1234.56789012345"), "2000 1234.57");
+    EXPECT_EQ(digits("marker.1.depth_m=2000.0000125"), "2000 2000.00001"); // where they differ
     const auto longer = scene_differences(one, three, effects());
     ASSERT_EQ(longer.size(), 1u);
     EXPECT_EQ(longer[0].path, "marker[2]");
