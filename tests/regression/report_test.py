@@ -637,7 +637,7 @@ class Report(Browsed):
         summary = json.loads((self.run_folder / "summary.json").read_text())
         with open(self.saved("save_faults"), newline="") as file:
             dips = {row["fault"]: float(row["dip_deg"]) for row in csv.DictReader(file)}
-        self.assertEqual(list(dips.values()), [fault["dip_deg"] for fault in summary["faults"]])
+        self.assertEqual(list(dips.values()), [float(f"{fault['dip_deg']:.4g}") for fault in summary["faults"]])
         self.assertEqual(self.saved("save_history").read_text().strip(),
                          (self.run_folder / "history.csv").read_text().strip())
         with Image.open(self.saved("save_png")) as picture:
@@ -650,6 +650,7 @@ class Report(Browsed):
         tree = xml.etree.ElementTree.parse(self.saved("save_svg"))
         said = ["".join(node.itertext()) for node in tree.iter("{http://www.w3.org/2000/svg}text")]
         self.assertIn("depth (km)", said)
+        self.assertIn("distance from the breakaway (km)", said)
         self.assertIn("10", said)
         self.assertIn("pre-rift, layers of 1 km", said)
         for words in ("90-degree listric detachment", "1.50 km, 0.150 Myr", "no vertical exaggeration", "seed 1", summary["state_hash"],
@@ -858,7 +859,7 @@ class Report(Browsed):
                     "await new Promise(done => setTimeout(done, 300)); return 0;")
         self.assertRegex(self.driver.find_element("id", "picked").text, r"is at x 0\.\d{3,4} m, depth 0\.\d{3,4} m; radius 0\.00\d+ m")
         self.open()    # what a basin had stays
-        self.assertEqual(self.script("return [page.view.top, zoomLimits()[0], page.chart.clockStep(), placeText(1500)];"),
+        self.assertEqual(self.script("return [page.view.top - page.runs[0].extent.top, zoomLimits()[0], page.chart.clockStep(), placeText(1500)];"),
                          [-2000, 0.001, 10, "1.50 km"])
 
     def test_14_status_and_a_live_page(self):

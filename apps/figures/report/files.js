@@ -21,7 +21,7 @@ function discsCsv(run, k) {
     ...strainStreams, "behaviour", "bonds", "mean_stress_pa", "shear_stress_pa"].filter(name => run.has(name));
   const columns = names.map(name => run.values(k, name)), rows = [];
   run.codes[k].present.forEach((there, id) => {
-    if (there) rows.push([id, depthReference, ...columns.map((column, n) => sensible(column[id], names[n], run.head.mean_radius_m))]);
+    if (there) rows.push([id, depthReference, ...columns.map(column => Number(column[id].toPrecision(9)))]);
   });
   return csvOf(["id", "depth_reference", ...names], rows);
 }
