@@ -83,15 +83,17 @@ inline const Effect& speed_gauge() {
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * work.discs;
             },
-        .measures = {{"greatest_speed_m_per_s", "m/s", "greatest speed that a disc was seen at",
+        .measures = {{"greatest_speed_m_per_s", "m/s", "greatest speed",
+                      "greatest speed that a disc was seen at",
                       [](const Observation& now) -> std::optional<double> {
                           return dem::find<const SpeedGauge>(now.events)->greatest();
                       }}},
         .objects =
             {{"speed_gauge",
               "",
+              "speed gauge",
               "what the gauge has done",
-              {{"looks", "1", "at speeds"}},
+              {{"looks", "1", "looks", "at speeds"}},
               [](const Observation& now) -> std::optional<std::vector<NamedNumbers>> {
                   const auto& gauge = *dem::find<const SpeedGauge>(now.events);
                   return std::vector<NamedNumbers>{{{"looks", static_cast<double>(gauge.applied)}}};
