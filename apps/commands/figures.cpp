@@ -44,8 +44,9 @@ void require_formats(const std::vector<std::string>& formats,
 /// "85mm" in millimetres.
 double parse_width(std::string_view text) {
     constexpr double least = 40.0, most = 500.0;
-    const std::string_view number = text.ends_with("mm") ? text.substr(0, text.size() - 2) : text;
-    const double width = parse_number(number).value_or(NAN);
+    const bool has_unit = text.ends_with("mm");
+    const double width =
+        has_unit ? parse_number(text.substr(0, text.size() - 2)).value_or(NAN) : NAN;
     if (!(width >= least && width <= most))
         throw UsageError(fmt::format("--width {}: a width from {:g}mm to {:g}mm; a column has "
                                      "85mm, a page 180mm",

@@ -22,7 +22,7 @@ FLOORS = {
     "apps/studies": "many runs: validation, accuracy against time",
     "apps/laboratory": "samples under test: what rock microproperties make",
     "apps/run": "simulates a scene from genesis or snapshot to its end",
-    "apps/figures": "what people look at: ParaView series, pictures",
+    "apps/figures": "report and drawing page, figures, seismics, ParaView",
     "apps/archive": "a run's folder: snapshots, history, summary",
     "apps/measures": "numbers from states; no files, no scene",
     "apps/model": "the objects a scene asks for; effects, one file each",
