@@ -62,7 +62,9 @@ Numbers numbers_of(const Told& run, Setting setting, RigidBase base, const Measu
         for (const auto& [horizon, at] : f.cutoffs)
             add(fmt::format("throw of horizon {}", horizon).c_str(), at.height());
     }
-    std::erase_if(numbers, [](const auto& one) { return one.first.ends_with("rate_mm_per_a"); });
+    std::erase_if(numbers, [](const auto& one) {
+        return one.first.ends_with("rate_mm_per_a") || one.first.ends_with("travel_m");
+    });
     return numbers;
 }
 

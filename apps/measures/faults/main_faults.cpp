@@ -91,14 +91,14 @@ constexpr Measure<MainFault> of_main_fault[] = {
     {"_turn_deg", "deg", " fault: turn since birth",
      "`footwall_turn_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.footwall_turn; }},
-    {"_first_traced_m", "m", " fault: first traced at",
+    {"_first_traced_travel_m", "m", " fault: travel when first traced",
      "travel at which the main fault of that attitude was traced for the first time, the first "
      "part of its `id`: where it changes from one moment to the next, another fault is the main "
      "one",
      [](F f) -> Value { return f.fault.name.travel.m; }},
     {"_throw_m", "m", " fault: throw",
      "`greatest_throw_m` of the fault that is the main one of its attitude at that moment; from "
-     "moment to moment it may be another (`..._first_traced_m`), with less throw",
+     "moment to moment it may be another (`..._first_traced_travel_m`), with less throw",
      [](F f) { return pre_rift_throw_of(f.fault.cutoffs); }},
     {"_rate_mm_per_a", "mm/a", " fault: slip rate",
      "`rate_mm_per_a` of the main fault of that attitude",
