@@ -92,7 +92,7 @@ class Figures(unittest.TestCase):
         folder = self.copy("moment")
         said = self.listric("figures", folder, "--at", "0.05km").stdout
         self.assertEqual(said.split(), [str(file) for file in sorted((folder / "figures").iterdir())])
-        made = {file.name for file in (folder / "figures").iterdir()} - {"caption.txt"}
+        made = {file.name for file in (folder / "figures").iterdir()} - {"caption.txt", "origin.txt"}
         self.assertEqual({name.rpartition("-")[2] for name in made}, {"0.05km.png"})
         self.assertIn("strain-0.05km.png", made)
         far = self.listric("figures", folder, "--at", "300m")
@@ -111,7 +111,7 @@ class Figures(unittest.TestCase):
         folder = self.copy("print")
         ended = self.listric("figures", folder, "--at", "100m", "--width", "85mm", "--only", "strata,seismic-depth", "--dpi", "254")
         self.assertEqual(ended.returncode, 0, ended.stdout)
-        self.assertEqual([Path(line).name for line in ended.stdout.splitlines()], ["caption.txt", "strata-seismic-depth-0.1km-85mm-254dpi.png"])
+        self.assertEqual([Path(line).name for line in ended.stdout.splitlines()], ["caption.txt", "origin.txt", "strata-seismic-depth-0.1km-85mm-254dpi.png"])
         with Image.open(folder / "figures/strata-seismic-depth-0.1km-85mm-254dpi.png") as picture:
             self.assertEqual(picture.width, 850)
         self.assertIn("(b) synthetic seismic image in depth", (folder / "figures/caption.txt").read_text())
