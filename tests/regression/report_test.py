@@ -859,7 +859,7 @@ class Report(Browsed):
                     "await new Promise(done => setTimeout(done, 300)); return 0;")
         self.assertRegex(self.driver.find_element("id", "picked").text, r"is at x 0\.\d{3,4} m, depth 0\.\d{3,4} m; radius 0\.00\d+ m")
         self.open()    # what a basin had stays
-        self.assertEqual(self.script("return [page.view.top - page.runs[0].extent.top, zoomLimits()[0], page.chart.clockStep(), placeText(1500)];"),
+        self.assertEqual(self.script("return [Math.round(page.view.top - page.runs[0].extent.top), zoomLimits()[0], page.chart.clockStep(), placeText(1500)];"),
                          [-2000, 0.001, 10, "1.50 km"])
 
     def test_14_status_and_a_live_page(self):

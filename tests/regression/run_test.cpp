@@ -1075,7 +1075,8 @@ TEST_F(RunTest, FiguresAreDrawnAndRedrawn) {
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(names_ending(output / "figures", ".png"), drawn);
     EXPECT_THAT(contents(output / "figures/caption.txt"), StartsWith("strata-0.13km\n"));
-    fs::remove(output / "figures/caption.txt");
+    for (const char* text : {"caption.txt", "origin.txt"})
+        EXPECT_TRUE(fs::remove(output / "figures" / text)) << text;
     for (const auto& [path, file] : tree(output / "figures"))
         EXPECT_THAT(file.first, AllOf(StartsWith("\x89PNG"), HasSubstr("IEND"))) << path;
 }
