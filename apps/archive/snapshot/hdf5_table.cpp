@@ -38,7 +38,7 @@ struct Cause {
 /// Whether little is left: a damaged file may ask for more than any machine has.
 bool is_memory_short() {
     constexpr std::size_t ample = 16 << 20;
-    void* const room = std::malloc(ample);
+    void* volatile const room = std::malloc(ample);
     std::free(room);
     return !room;
 }
@@ -62,7 +62,8 @@ bool is_memory_short() {
 } // namespace
 
 void prepare_hdf5(double bytes) {
-    void* const room = std::malloc(static_cast<std::size_t>(bytes)); // before its first call
+    // Before its first call. Volatile, or clang would leave out what is only freed.
+    void* volatile const room = std::malloc(static_cast<std::size_t>(bytes));
     if (!room)
         throw std::bad_alloc();
     std::free(room);
