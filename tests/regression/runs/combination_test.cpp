@@ -3,7 +3,7 @@
 // its mass; pairs that do not go together are refused by name.
 
 #include "apps/model/model.hpp"
-#include "tests/regression/speed_gauge.hpp"
+#include "tests/regression/runs/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 #include "tests/xml_files.hpp"
 

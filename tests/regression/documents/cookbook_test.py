@@ -14,7 +14,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from document_commands import commands, run
+from documents.document_commands import commands, run
 from program import SOURCES
 
 DOCUMENT = "docs/cookbook.md"

@@ -2,7 +2,7 @@
 // the figures' scripts read, in their pictures and in the report.
 
 #include "apps/figures/frame.hpp"
-#include "tests/regression/speed_gauge.hpp"
+#include "tests/regression/runs/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from document_commands import commands, run
+from documents.document_commands import commands, run
 
 
 class Tutorial(unittest.TestCase):

@@ -6,7 +6,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/prediction.hpp"
 #include "apps/run/genesis_cache.hpp"
-#include "tests/regression/speed_gauge.hpp"
+#include "tests/regression/runs/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
