@@ -4,7 +4,7 @@
 set(commit "")
 if(EXISTS ${source}/.git)
   set(ENV{GIT_OPTIONAL_LOCKS} 0)
-  execute_process(COMMAND git -C ${source} describe --always --dirty
+  execute_process(COMMAND git -C ${source} describe --always --dirty --exclude=*
     OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
   if(NOT failed AND commit)
     string(PREPEND commit "+")
