@@ -111,10 +111,10 @@ void add_balance(std::vector<QualityCheck>& all, const JsonObject& summary,
     } else {
         const bool good = least_area_balance <= *balance && *balance <= most_area_balance;
         check.verdict = verdict_of(good);
-        check.words = good ? "The basin is as large as extension × thickness."
-                           : "The basin is not as large as extension × thickness: rock dilates "
-                             "(rock_dilation_fraction of listric measure), calibrated rock by 7 to "
-                             "12 %, or was eroded.";
+        check.words =
+            good ? "The basin is as large as extension × thickness."
+                 : "The basin is not as large as extension × thickness: rock dilates "
+                   "(rock_dilation_fraction), calibrated rock by 7 to 12 %, or was eroded.";
         check.brief = good ? "areas balance" : "areas do not balance";
     }
     all.push_back(std::move(check));
