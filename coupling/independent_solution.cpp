@@ -2,6 +2,7 @@
 
 #include "coupling/modes.hpp"
 #include "dem/base/trace.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ double relative_difference(std::span<const double> a, std::span<const double> b)
     assert(a.size() == b.size());
     double square = 0.0, size = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k) {
-        square += std::pow(a[k] - b[k], 2);
+        square += (a[k] - b[k]) * (a[k] - b[k]);
         size += b[k] * b[k];
     }
     return size > 0.0 ? std::sqrt(square / size) : 0.0;

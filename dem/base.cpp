@@ -1,5 +1,6 @@
 #include "dem/base.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ Segment arc(Point start, Point tangent, double radius, double turn) {
     const double side = turn > 0.0 ? 1.0 : -1.0;
     const Point n = left_normal(tangent);
     const Point c{start.x + side * radius * n.x, start.y + side * radius * n.y};
-    const double cosine = std::cos(turn), sine = std::sin(turn);
+    const double cosine = dem::cosine(turn), sine = dem::sine(turn);
     const Point from_centre = start - c;
     return {start,
             {c.x + cosine * from_centre.x - sine * from_centre.y,
@@ -112,7 +113,7 @@ std::optional<FootPoint> foot_point(const Chain& chain, Point p) {
         arc_length += dot(p - s.start, s.start_tangent);
     else {
         const Point c = centre(s);
-        const double turn = std::atan2(cross(s.start - c, p - c), dot(s.start - c, p - c));
+        const double turn = arc_tangent(cross(s.start - c, p - c), dot(s.start - c, p - c));
         arc_length += std::abs(turn / s.curvature);
     }
     return FootPoint{found->foot, arc_length};
@@ -180,7 +181,7 @@ Point point_at(const Chain& chain, double arc_length) {
                     s.start.y + arc_length * s.start_tangent.y};
         const Point c = centre(s);
         const double turn = arc_length * s.curvature;
-        const double cosine = std::cos(turn), sine = std::sin(turn);
+        const double cosine = dem::cosine(turn), sine = dem::sine(turn);
         const Point from_centre = s.start - c;
         return {c.x + cosine * from_centre.x - sine * from_centre.y,
                 c.y + sine * from_centre.x + cosine * from_centre.y};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <cmath>
@@ -46,7 +47,7 @@ inline double normal(std::uint64_t seed, Purpose purpose, std::uint64_t a, std::
     const std::uint64_t bits = random_bits(seed, purpose, a, b, c);
     const double u = (static_cast<double>(bits >> 32) + 1.0) * 0x1p-32;
     const double v = static_cast<double>(bits & 0xffffffffu) * 0x1p-32;
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * pi * v);
+    return std::sqrt(-2.0 * logarithm(u)) * cosine(2.0 * pi * v);
 }
 
 } // namespace listric::dem

@@ -1,4 +1,5 @@
 #include "fluid/pore_law.hpp"
+#include "dem/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ double permeability(const Permeability& mud, double porosity) {
     case PermeabilityLaw::kozeny_carman:
         return mud.at_fifth * kozeny_carman(porosity) / kozeny_carman(fifth);
     case PermeabilityLaw::mudstone:
-        return std::exp(mudstone(mud.clay_fraction, over_grains(porosity)));
+        return dem::exponential(mudstone(mud.clay_fraction, over_grains(porosity)));
     case PermeabilityLaw::constant:
         break;
     }
@@ -37,11 +38,11 @@ double permeability(const Permeability& mud, double porosity) {
 }
 
 double porosity_at(const PoreLaw& law, double depth) {
-    return law.surface_porosity * std::exp(-law.decay * depth);
+    return law.surface_porosity * dem::exponential(-law.decay * depth);
 }
 
 double grains_at(const PoreLaw& law, double depth) {
-    return depth + law.surface_porosity / law.decay * std::expm1(-law.decay * depth);
+    return depth + law.surface_porosity / law.decay * dem::exponential_less_one(-law.decay * depth);
 }
 
 double equivalent_depth(const PoreLaw& law, double grains) {

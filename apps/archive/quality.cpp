@@ -2,6 +2,7 @@
 
 #include "apps/archive/folder/summary.hpp"
 #include "apps/archive/tables/fault_fields.hpp"
+#include "apps/measures/basin/dilation.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
@@ -109,13 +110,40 @@ void add_balance(std::vector<QualityCheck>& all, const JsonObject& summary,
         check.words = fmt::format("Not judged {}.", where);
         check.brief = fmt::format("balance of areas not judged {}", where);
     } else {
-        const bool good = least_area_balance <= *balance && *balance <= most_area_balance;
+        const double elastic =
+            number_at(summary, std::string(measures::elastic_area_fraction).c_str()).value_or(0.0);
+        const double judged = *balance + elastic;
+        const bool good = least_area_balance <= judged && judged <= most_area_balance;
+        if (std::abs(elastic) >= 0.0005)
+            check.value += fmt::format(", {:.3f} as if rock were rigid", judged);
         check.verdict = verdict_of(good);
         check.words =
             good ? "The basin is as large as extension × thickness."
                  : "The basin is not as large as extension × thickness: rock dilates "
                    "(rock_dilation_fraction), calibrated rock by 7 to 12 %, or was eroded.";
         check.brief = good ? "areas balance" : "areas do not balance";
+    }
+    all.push_back(std::move(check));
+}
+
+void add_still_ground(std::vector<QualityCheck>& all, const JsonObject& summary,
+                      const QualityContext& context) {
+    const std::string key = measures::name_of<&M::still_ground>();
+    const auto rise = number_at(summary, key.c_str());
+    if (!rise || context.mean_radius == 0.0)
+        return;
+    const double most = 0.5 * context.mean_radius;
+    QualityCheck check{key, "Still ground", fmt::format("{:+.0f} m", *rise),
+                       fmt::format("within {}", length_words(most))};
+    if (context.base_moves) {
+        check.words = "Not judged: the base moves, and the ground with it.";
+    } else {
+        const bool good = std::abs(*rise) <= most;
+        check.verdict = verdict_of(good);
+        check.words = good ? "Ground that nothing moves keeps its level."
+                           : "Ground that nothing moves leaves its level, and basin and fill with "
+                             "it: discs are too soft (cycle.softness).";
+        check.brief = good ? "" : "still ground moves";
     }
     all.push_back(std::move(check));
 }
@@ -183,6 +211,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     add_mass(all, summary);
     add_volume(all, summary);
     add_balance(all, summary, context);
+    add_still_ground(all, summary, context);
     add_discs_per_fault(all, summary, context);
     add_sediment(all, summary);
     add_rest(all, summary);

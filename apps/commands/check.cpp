@@ -9,6 +9,7 @@
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
 #include "apps/support/words/text.hpp"
+#include "dem/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ public:
     Prediction of(const Scene& scene) {
         constexpr int largest = 17; // packings of 130,000 discs are as slow as larger ones
         const double discs = static_cast<double>(estimated_discs(scene));
-        const int size = std::min(largest, static_cast<int>(std::log2(discs)));
+        const int size = std::min(largest, static_cast<int>(dem::logarithm_to_base_2(discs)));
         const bool accounted = make_parts(scene).accounts_energy;
         const auto [speed, is_new] = speeds_.try_emplace({size, accounted});
         if (is_new)
@@ -48,7 +49,8 @@ private:
 
 /// "about 16,700": three digits, thousands apart.
 std::string about(double number) {
-    const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(number)) - 2.0));
+    const double unit =
+        dem::power(10.0, std::max(0.0, std::floor(dem::logarithm_to_base_10(number)) - 2.0));
     std::string digits = fmt::format("{:.0f}", unit * std::round(number / unit));
     for (std::size_t at = digits.size(); at > 3;)
         digits.insert(at -= 3, 1, ',');

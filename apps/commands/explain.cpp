@@ -4,9 +4,15 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
-#include <fmt/format.h>
+#include "dem/cycle_physics.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace listric {
 
@@ -42,6 +48,35 @@ std::string explain_effects(const Scene& scene, EffectList effects) {
     return text + "\n";
 }
 
+/// Materials whose stiffness sets the time step: "rock and sediment".
+std::string stiffest(const Scene& scene) {
+    const ModelParts parts = make_parts(scene);
+    std::vector<std::pair<std::string, double>> found{
+        {"rock", stable_time_step(1.0, parts.materials[basement], 0.0, 1.0)}};
+    if (parts.sediment)
+        found.emplace_back("sediment", stable_time_step(1.0, parts.materials[sediment], 0.0, 1.0));
+    for (const LayerFacts& layer : parts.layers)
+        found.emplace_back("layer " + layer.name,
+                           stable_time_step(1.0, parts.materials[layer.material], 0.0, 1.0));
+    const double least =
+        std::ranges::min(found, {}, &std::pair<std::string, double>::second).second;
+    std::vector<std::string> names;
+    for (const auto& [name, step] : found)
+        if (step == least)
+            names.push_back(name);
+    return fmt::format("{}", fmt::join(names, " and "));
+}
+
+/// Cycles of another softness.
+std::string explain_softness(const Scene& scene, const Prediction& p) {
+    const double softness = scene.cycle.softness;
+    return softness == 1.0
+               ? fmt::format("  cycle.softness = 4 would take {:.3g} million\n", p.cycles / 2e6)
+               : fmt::format(
+                     "  softness {:g}: with stiffness as stated they would be {:.3g} million\n",
+                     softness, p.cycles * std::sqrt(softness) / 1e6);
+}
+
 std::string explain_size(const Scene& scene, const Prediction& p) {
     const ExtensionParameters& extension = scene.extension;
     const double extends = greatest_extension(scene); // less than the way where there are stages
@@ -55,13 +90,14 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
     return fmt::format("size\n{}"
                        "  {} discs at the start, about {} at the end, mean radius {} m\n"
                        "  {} at {} m/a: {:g} Myr\n"
-                       "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
+                       "  time step {:.3g} s, set by {}, {:.3g} million cycles at {} m/s\n"
+                       "{}"
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
                        "  {}, one every {} m\n\n",
                        fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall.mean_radius,
                        way, extension.rate, extension.distance / extension.rate / 1e6, p.time_step,
-                       p.cycles / 1e6, extension.speed, p.disc_steps, p.memory / 1e6,
-                       output_text(p), scene.output.interval);
+                       stiffest(scene), p.cycles / 1e6, extension.speed, explain_softness(scene, p),
+                       p.disc_steps, p.memory / 1e6, output_text(p), scene.output.interval);
 }
 
 /// Intervals that are other ways of the wall than their defaults.

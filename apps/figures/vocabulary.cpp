@@ -3,6 +3,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/resources.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ double scale_end(std::vector<double> values) {
         high = std::ranges::max(values);
     if (high <= 0.0)
         return 0.01;
-    const double power = std::pow(10.0, std::floor(std::log10(high)));
+    const double power = dem::power(10.0, std::floor(dem::logarithm_to_base_10(high)));
     const auto steps = scale.at("steps").get<std::vector<double>>();
     const auto step = std::ranges::find_if(
         steps, [&](double factor) { return high <= factor * power * (1.0 + 1e-9); });

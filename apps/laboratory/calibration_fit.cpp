@@ -6,6 +6,7 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/version.hpp"
+#include "dem/elementary.hpp"
 #include "fem/byerlee.hpp"
 
 #include <fmt/format.h>
@@ -166,15 +167,15 @@ void fit_stiffness(Calibration& c, RockMaterial& rock) {
                 break;
             continue;
         }
-        const double now = std::log(ratio);
+        const double now = dem::logarithm(ratio);
         // From 1 to 4, nu rises by about 0.09 per e-fold; later the secant knows better.
         double slope = 0.09;
         if (round > 0 && std::abs(now - last_log) > 1e-3)
             slope = std::clamp((poisson - last_poisson) / (now - last_log), 0.03, 0.3);
         last_log = now;
         last_poisson = poisson;
-        const double next =
-            std::clamp(std::exp(now + (t.poisson - poisson) / slope), least_ratio, greatest_ratio);
+        const double next = std::clamp(dem::exponential(now + (t.poisson - poisson) / slope),
+                                       least_ratio, greatest_ratio);
         if (next == ratio) {
             c.misses.push_back(fmt::format(
                 "Poisson's ratio {:.3f}: {:.3f} is reached at the limit k_n/k_s = {}; contacts "
@@ -197,7 +198,8 @@ void fit_strength(Calibration& c, RockMaterial& rock) {
     // Parameters: disc friction and the logarithm of tensile strength.
     const auto errors = [&](const TwoParameters& x) {
         rock.material.friction = std::clamp(x[0], least_friction, greatest_friction);
-        rock.bonds->tensile_mean = std::clamp(std::exp(x[1]), least_tension, greatest_tension);
+        rock.bonds->tensile_mean =
+            std::clamp(dem::exponential(x[1]), least_tension, greatest_tension);
         rock.bonds->tensile_deviation = 0.25 * rock.bonds->tensile_mean;
         std::vector<double> e = c.strength(rock);
         for (std::size_t k = 0; k < e.size(); ++k)
@@ -209,11 +211,11 @@ void fit_strength(Calibration& c, RockMaterial& rock) {
     // way to go.
     const double tension =
         std::max(0.1 * confining.front(), c.targets.byerlee ? 0.0 : c.targets.cohesion);
-    const TwoParameters start{std::clamp(2.0 * (slope - 0.35), 0.05, 2.0), std::log(tension)};
+    const TwoParameters start{std::clamp(2.0 * (slope - 0.35), 0.05, 2.0), dem::logarithm(tension)};
     const GaussNewton search{.errors = errors,
-                             .lower = {least_friction, std::log(least_tension)},
-                             .upper = {greatest_friction, std::log(greatest_tension)},
-                             .difference = {start[0] > 1.0 ? -0.4 : 0.3, std::log(2.0)},
+                             .lower = {least_friction, dem::logarithm(least_tension)},
+                             .upper = {greatest_friction, dem::logarithm(greatest_tension)},
+                             .difference = {start[0] > 1.0 ? -0.4 : 0.3, dem::logarithm(2.0)},
                              .longest = {0.5, 1.5},
                              .rounds = 6,
                              .enough = 0.03,

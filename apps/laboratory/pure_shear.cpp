@@ -8,6 +8,7 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml/toml.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -155,6 +156,8 @@ std::optional<double> mean_dip(const std::vector<SlabFault>& faults) {
     return length > 0.0 ? std::optional(sum / length) : std::nullopt;
 }
 
-double anderson_dip(double friction) { return 45.0 + 0.5 * std::atan(friction) * 180.0 / pi; }
+double anderson_dip(double friction) {
+    return 45.0 + 0.5 * dem::arc_tangent(friction) * 180.0 / pi;
+}
 
 } // namespace listric

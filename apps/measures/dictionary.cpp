@@ -118,6 +118,15 @@ constexpr Measure<M> of_material[] = {
 };
 
 constexpr Measure<M> of_quality[] = {
+    {"still_ground_m", "m", "rise of ground that nothing moves",
+     "mean rise since the start of pre-rift discs that lay in the highest tenth of the hanging "
+     "wall "
+     "and in the tenth of its length at the moving wall, where a rigid detachment is flat: soft "
+     "rock "
+     "that had not come to rest leaves its level. None in a box that stretches, and once a stage "
+     "has "
+     "shortened",
+     taken<&M::still_ground>, OverTime::last, "within half a disc's radius"},
     {"mass_error_fraction", "1", "error of mass",
      "(mass − (initial + deposited − removed)) / initial, without sign; zero up to round-off",
      taken<&M::mass_error_fraction>, OverTime::last, "below 1e-12"},

@@ -20,7 +20,7 @@ Past remember(const Setting& setting, const RigidBase& base, const State& now,
               std::span<const Past> past) {
     Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base))};
     if (past.empty())
-        moment.rock_cells = rock_cells(now, base);
+        moment.rock = rock_packing(now, base);
     return moment;
 }
 

@@ -120,6 +120,21 @@ void add_quietness(Measures& m, const Setting& setting, Events events) {
                          m.inertial_number <= greatest_inertial_number;
 }
 
+/// Rock near the moving wall, where a rigid detachment is flat.
+void add_still_ground(Measures& m, const Setting& setting, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    double rise = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0 && d.start_y[i] > -0.1 * setting.thickness &&
+            d.start_x[i] > 0.9 * setting.length &&
+            d.start_x[i] < setting.length - 4.0 * state.mean_radius) {
+            rise += d.y[i] - d.start_y[i];
+            count += 1.0;
+        }
+    if (count > 0.0)
+        m.still_ground = rise / count;
+}
+
 void add_conservation(Measures& m, const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const Ledger& ledger = state.ledger;
@@ -149,6 +164,9 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
         m.basement_unbonded_fraction = unbonded_share_of_basement(state);
         m.broken = measure_broken_rock(state);
     }
+    if (extension > 0.0 && setting.has_detachment &&
+        !setting.motion.shortens(just_before(setting.motion, state.clock)))
+        add_still_ground(m, setting, state);
     add_conservation(m, state);
     add_quietness(m, setting, events);
     return m;

@@ -28,6 +28,7 @@ struct Measures {
     std::optional<BrokenRock> broken; ///< of the basement
     std::optional<double> old_sediment_bonded_fraction;
     std::optional<std::vector<BondedLayer>> old_sediment_bonded_profile;
+    std::optional<double> still_ground; ///< rise of ground that nothing moves, m
     double mass_error_fraction = 0.0;
     std::optional<double> unbalanced_ratio_mean, unbalanced_ratio_max; ///< once forces are sampled
     double inertial_number = 0.0; ///< of the tenth of the area strained most

@@ -1,5 +1,6 @@
 #include "apps/measures/polyline.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ double dip_of(const Polyline& points) {
         xy += (p.x - mean.x) * (p.y - mean.y);
         yy += (p.y - mean.y) * (p.y - mean.y);
     }
-    return std::abs(0.5 * std::atan2(2.0 * xy, xx - yy)) * 180.0 / pi;
+    return std::abs(0.5 * dem::arc_tangent(2.0 * xy, xx - yy)) * 180.0 / pi;
 }
 
 double curvature_of(const Polyline& points) {
@@ -120,7 +121,7 @@ std::vector<Polyline> without_kinks(const Polyline& points) {
         return dot(unit(points[k] - points[k - reach]), unit(points[k + reach] - points[k]));
     };
     for (std::size_t k = 1; k + 1 < points.size(); ++k)
-        if (turn(k) < std::cos(40.0 * pi / 180.0) && turn(k) <= turn(k - 1) &&
+        if (turn(k) < dem::cosine(40.0 * pi / 180.0) && turn(k) <= turn(k - 1) &&
             turn(k) < turn(k + 1)) {
             pieces.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(begin),
                                 points.begin() + static_cast<std::ptrdiff_t>(k) + 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/elementary.hpp"
 #include "dem/point.hpp"
 
 #include <cassert>
@@ -29,14 +30,14 @@ public:
             sine += ax * by - ay * bx;
             cosine += ax * bx + ay * by;
         }
-        angle_ = std::atan2(sine, cosine);
+        angle_ = dem::arc_tangent(sine, cosine);
     }
 
     double angle() const { return angle_; } ///< rad, counter-clockwise
     dem::Point move(dem::Point p) const {
         const double x = p.x - from_.x, y = p.y - from_.y;
-        return {to_.x + std::cos(angle_) * x - std::sin(angle_) * y,
-                to_.y + std::sin(angle_) * x + std::cos(angle_) * y};
+        return {to_.x + dem::cosine(angle_) * x - dem::sine(angle_) * y,
+                to_.y + dem::sine(angle_) * x + dem::cosine(angle_) * y};
     }
 
 private:

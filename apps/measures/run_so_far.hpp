@@ -12,11 +12,18 @@
 
 namespace listric::measures {
 
+/// The pre-rift discs as a packing, by id: see dilation.hpp.
+struct RockPacking {
+    std::vector<double> cells;   ///< power-cell areas, m^2; 0: not closed, or no such disc
+    std::vector<double> overlap; ///< sum over a disc's contacts of overlap times length, m^2
+    std::vector<double> reach;   ///< sum of squared lengths of those that press, m^2
+};
+
 /// Data of an earlier moment that the measures of a moment need.
 struct Past {
     DiscPlaces places;
-    std::vector<Depocentre> basins;      ///< see find_basins
-    std::vector<double> rock_cells = {}; ///< see dilation.hpp; of the first moment alone
+    std::vector<Depocentre> basins; ///< see find_basins
+    RockPacking rock = {};          ///< of the first moment alone
 };
 
 /// A run up to one of its moments: what measures that need its past look at. It refers to what it

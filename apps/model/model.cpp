@@ -13,6 +13,19 @@ namespace listric {
 
 using namespace dem;
 
+namespace {
+
+/// Divides the stiffness of a material that is not weak or soft already.
+void soften(std::span<Material> materials, double softness) {
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        if (!is_soft(materials, static_cast<std::uint8_t>(m))) {
+            materials[m].normal_stiffness /= softness;
+            materials[m].shear_stiffness /= softness;
+        }
+}
+
+} // namespace
+
 ModelParts make_parts(const Scene& scene) {
     ModelParts parts;
     parts.base = make_rigid_base(scene);
@@ -24,6 +37,8 @@ ModelParts make_parts(const Scene& scene) {
     for (const EffectPart& part : scene.effects)
         if (part.effect->contribute)
             part.effect->contribute(scene, parts);
+    soften(parts.materials, scene.cycle.softness);
+    soften({&parts.base.material, 1}, scene.cycle.softness);
     return parts;
 }
 

@@ -11,6 +11,7 @@
 // - Snapshots come before what can be made again from them, and takes longer.
 // - Pictures are drawn by a process beside what comes next. They follow faults back, which the
 //   report shows, too.
+// - The dilation of rock is measured once, at the end, against the first snapshot.
 // - The summary holds what outputs before it have added; the report shows the summary.
 // - The results are for people, who are told once all is there.
 // - The status comes last: it says that all the others are there.
@@ -23,6 +24,7 @@
     OUTPUT(pictures) \
     OUTPUT(paraview) \
     OUTPUT(base_check) \
+    OUTPUT(dilation) \
     OUTPUT(observed) \
     OUTPUT(summary) \
     OUTPUT(report) \

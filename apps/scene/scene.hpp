@@ -36,6 +36,7 @@ struct CycleParameters {
     double time_step_safety = 0.95;    ///< time step over the stability limit
     double inertial_mass_floor = 0.75; ///< least inertial mass, mean basement disc masses
     double skin = 0.25;                ///< neighbour-list margin, mean radii
+    double softness = 1.0;             ///< divides the discs' stiffnesses, but of soft rock
 };
 
 enum class SeriesFormat { paraview, none };

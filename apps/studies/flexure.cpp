@@ -10,6 +10,7 @@
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/log.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hash.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
@@ -128,7 +129,7 @@ double pressure_at(const FlexureParameters& flexure, double x) {
     if (flexure.load == FlexureLoad::strip)
         return std::abs(x) < flexure.half_width ? flexure.pressure : 0.0;
     if (flexure.load == FlexureLoad::sinusoid)
-        return flexure.pressure * std::cos(2.0 * std::numbers::pi * x / flexure.wavelength);
+        return flexure.pressure * dem::cosine(2.0 * std::numbers::pi * x / flexure.wavelength);
     return 0.0;
 }
 
@@ -181,13 +182,13 @@ std::optional<std::vector<double>> exact_deflection(const FlexureParameters& fle
         const double amplitude = flexure.pressure * layer.response(q, depth);
         std::vector<double> w;
         for (double place : x)
-            w.push_back(amplitude * std::cos(q * place));
+            w.push_back(amplitude * dem::cosine(q * place));
         return w;
     }
     return layer.deflection(x, depth, [&](double q) {
         return flexure.load == FlexureLoad::line
                    ? flexure.line_load
-                   : 2.0 * flexure.pressure * std::sin(q * flexure.half_width) / q;
+                   : 2.0 * flexure.pressure * dem::sine(q * flexure.half_width) / q;
     });
 }
 

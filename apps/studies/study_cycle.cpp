@@ -8,6 +8,7 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
 #include "dem/units.hpp"
@@ -71,14 +72,14 @@ struct Wave {
 
     double wave_number() const { return pi * mode / static_cast<double>(discs); }
     double shape(std::size_t j) const {
-        return std::cos(wave_number() * (static_cast<double>(j) + 0.5));
+        return dem::cosine(wave_number() * (static_cast<double>(j) + 0.5));
     }
     double rest(std::size_t j) const { return left + 2.0 * radius * static_cast<double>(j); }
     /// Fastest oscillation of two neighbours, 1/s; the stability limit is 2 / greatest().
     double greatest() const {
         return 2.0 * std::sqrt(0.5 * material.normal_stiffness / (density * pi * radius * radius));
     }
-    double frequency() const { return greatest() * std::sin(0.5 * wave_number()); }
+    double frequency() const { return greatest() * dem::sine(0.5 * wave_number()); }
 };
 
 /// Swings for some periods. `after_cycle` may disturb the state. Error: greatest difference from
@@ -98,7 +99,7 @@ StudyPoint swing(const Wave& wave, double safety, const std::function<void(State
     for (std::size_t j = 0; j < Wave::discs; ++j) {
         d.x[j] += Wave::amplitude * wave.shape(j);
         // Velocities are half a step behind.
-        d.vx[j] = Wave::amplitude * omega * std::sin(0.5 * omega * dt) * wave.shape(j);
+        d.vx[j] = Wave::amplitude * omega * dem::sine(0.5 * omega * dt) * wave.shape(j);
     }
     const auto start = SteadyClock::now();
     try {
@@ -111,7 +112,7 @@ StudyPoint swing(const Wave& wave, double safety, const std::function<void(State
             advance(state, {}, {0.0, 0.0}, cycles);
     } catch (const NumericalFailure&) {
     }
-    const double now = std::cos(omega * dt * static_cast<double>(cycles));
+    const double now = dem::cosine(omega * dt * static_cast<double>(cycles));
     double worst = 0.0;
     for (std::size_t j = 0; j < Wave::discs; ++j) {
         const double error = d.x[j] - wave.rest(j) - Wave::amplitude * wave.shape(j) * now;

@@ -4,6 +4,7 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/stopwatch.hpp"
+#include "dem/elementary.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 
@@ -65,7 +66,7 @@ struct Strip {
                 w.push_back(-field.displacement[k].y);
             }
         const std::vector<double> exact = layer.deflection(x, 0.5 * thickness, [](double q) {
-            return 2.0 * pressure * std::sin(q * half_width) / q;
+            return 2.0 * pressure * dem::sine(q * half_width) / q;
         });
         double worst = 0.0, greatest = 0.0;
         for (std::size_t k = 0; k < x.size(); ++k) {

@@ -13,6 +13,7 @@
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/words/log.hpp"
 #include "dem/cycle/cycle.hpp"
+#include "dem/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -102,8 +103,10 @@ void add_costs(const std::vector<std::optional<Json>>& seeds, StudyPoint& point)
 
 double root_mean_square(const std::vector<Values>& values, const Values& reference, double scale) {
     double sum = 0.0;
-    for (const Values& v : values)
-        sum += std::pow(distance(v, reference) / scale, 2);
+    for (const Values& v : values) {
+        const double off = distance(v, reference) / scale;
+        sum += off * off;
+    }
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 

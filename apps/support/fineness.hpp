@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/elementary.hpp"
+
 #include <cmath>
 
 namespace listric {
@@ -8,7 +10,7 @@ namespace listric {
 /// for discs of 10 m and more.
 inline double fineness(double mean_radius) {
     return mean_radius > 0.0 && mean_radius < 10.0
-               ? std::pow(10.0, std::ceil(std::log10(10.0 / mean_radius)))
+               ? dem::power(10.0, std::ceil(dem::logarithm_to_base_10(10.0 / mean_radius)))
                : 1.0;
 }
 

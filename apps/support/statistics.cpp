@@ -1,4 +1,5 @@
 #include "apps/support/statistics.hpp"
+#include "dem/elementary.hpp"
 
 namespace listric {
 
@@ -6,10 +7,12 @@ namespace {
 
 /// Probability of at least `met` successes in `of` tries, of a probability p within 0 and 1.
 double at_least(int met, int of, double p) {
-    double sum = 0.0;
-    for (int k = met; k <= of; ++k)
-        sum += std::exp(std::lgamma(of + 1.0) - std::lgamma(k + 1.0) - std::lgamma(of - k + 1.0) +
-                        k * std::log(p) + (of - k) * std::log1p(-p));
+    const double odds = dem::logarithm_of_one_and(-p) - dem::logarithm(p);
+    double sum = 0.0, log_of_term = of * dem::logarithm(p); // of as many as there are
+    for (int k = of; k >= met; --k) {
+        sum += dem::exponential(log_of_term);
+        log_of_term += odds + dem::logarithm(k) - dem::logarithm(of - k + 1.0);
+    }
     return sum;
 }
 

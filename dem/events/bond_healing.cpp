@@ -3,6 +3,7 @@
 #include "dem/bond.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -65,7 +66,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
             const double distance = hypotenuse(dx, dy), old_distance = hypotenuse(old_dx, old_dy);
             // Slip at the contact: turning of the line of centres less rolling of the two discs. A
             // pair that turns as one body does not slip.
-            const double turn = std::atan2(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
+            const double turn = arc_tangent(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
             const double half = 0.5 * (d.radius[i] + d.radius[j] - distance);
             const double slip = distance * turn -
                                 (d.radius[i] - half) * (d.rotation[i] - h.rotation[i]) -

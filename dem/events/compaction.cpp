@@ -3,6 +3,7 @@
 #include "dem/base/ground_level.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
+#include "dem/elementary.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>
@@ -51,9 +52,9 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     std::ranges::fill(radius_rate, 0.0);
     const auto compact = [&](std::size_t i, Cover& cover) {
         const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        const double wanted = given
-                                  ? wanted_porosity[i]
-                                  : surface_porosity_ * std::exp(-parameters_.coefficient * depth);
+        const double wanted =
+            given ? wanted_porosity[i]
+                  : surface_porosity_ * exponential(-parameters_.coefficient * depth);
         const double area = d.radius[i] * d.radius[i];
         const bool shrinks = d.stratum[i] > 0 && wanted < porosity[i];
         const double kept = shrinks ? (1.0 - porosity[i]) / (1.0 - wanted) : 1.0; // grains are kept

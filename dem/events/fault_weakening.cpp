@@ -6,6 +6,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/contacts/soft_discs.hpp"
+#include "dem/elementary.hpp"
 #include "dem/events/measure_circle.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
@@ -73,6 +74,7 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
     std::vector<double> columns;
     for (double x = left; x <= right; x += spacing)
         columns.push_back(x);
+    const std::vector<Point> planes = plane_directions(angles);
     std::vector<FaultSegment> found =
         joined(by_piece(columns.size(), 1, [&](std::size_t column, std::size_t end) {
             std::vector<FaultSegment> in_columns;
@@ -89,9 +91,9 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
                     if (slip_bound(s, circle, {x, y}) <= threshold)
                         continue;
                     const FaultSegment segment =
-                        most_active_plane(s, circle, {x, y}, diameter, angles);
+                        most_active_plane(s, circle, {x, y}, diameter, planes);
                     if (std::abs(segment.slip) > threshold)
-                        in_columns.push_back(along_fault(s, circle, segment, angles));
+                        in_columns.push_back(along_fault(s, circle, segment, planes));
                 }
             return in_columns;
         }));
@@ -116,7 +118,7 @@ struct Band {
 };
 
 Band band_of(const FaultSegment& f, double length) {
-    const Point half{0.5 * length * std::cos(f.angle), 0.5 * length * std::sin(f.angle)};
+    const Point half{0.5 * length * cosine(f.angle), 0.5 * length * sine(f.angle)};
     return {f.centre - half, f.centre + half};
 }
 
@@ -142,8 +144,7 @@ std::vector<Band> gaps(const std::vector<FaultSegment>& kept,
                 continue;
             const Point along = unit(between), middle = from + 0.5 * between;
             const auto on_line = [&](const FaultSegment& f) {
-                return std::abs(cross(along, {std::cos(f.angle), std::sin(f.angle)})) <
-                       std::sin(1.01 * step);
+                return std::abs(cross(along, {cosine(f.angle), sine(f.angle)})) < sine(1.01 * step);
             };
             if (on_line(kept[a]) && on_line(kept[b]) &&
                 std::ranges::any_of(found, [&](const FaultSegment& f) {

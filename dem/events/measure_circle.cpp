@@ -1,4 +1,5 @@
 #include "dem/events/measure_circle.hpp"
+#include "dem/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,8 +100,8 @@ struct TwoBlocks {
     double explained = 0.0; ///< sum of squared displacements less those that it leaves, m^2
 };
 
-TwoBlocks fit_two_blocks(const Circle& circle, double angle) {
-    const Point t{std::cos(angle), std::sin(angle)};
+/// @param t  direction of the plane
+TwoBlocks fit_two_blocks(const Circle& circle, Point t) {
     const auto side_of = [&](Point place) { return cross(t, place) > 0.0 ? 0.5 : -0.5; };
     const Part all = circle.all();
     double sides = 0.0;
@@ -122,15 +123,27 @@ TwoBlocks fit_two_blocks(const Circle& circle, double angle) {
             (qq * ru * ru - 2.0 * rq * ru * qu + rr * qu * qu) / determinant};
 }
 
+double angle_of(std::span<const Point> planes, std::size_t plane) {
+    return pi * static_cast<double>(plane) / static_cast<double>(planes.size());
+}
+
 } // namespace
 
+std::vector<Point> plane_directions(int angles) {
+    std::vector<Point> planes;
+    for (int a = 0; a < angles; ++a) {
+        const double angle = pi * a / angles;
+        planes.push_back({cosine(angle), sine(angle)});
+    }
+    return planes;
+}
+
 FaultSegment most_active_plane(const Displacements& s, Members members, Point centre,
-                               double diameter, int angles) {
+                               double diameter, std::span<const Point> planes) {
     const Circle circle(s, members, centre);
     FaultSegment best{centre};
-    for (int a = 0; 2 * a < angles; ++a) { // beyond a right angle are the conjugate planes
-        const double angle = pi * a / angles;
-        const Point t{std::cos(angle), std::sin(angle)};
+    for (std::size_t a = 0; 2 * a < planes.size(); ++a) { // beyond are the conjugate planes
+        const Point t = planes[a];
         Part quarter[2][2]; // [left of the plane][behind the centre]
         circle.for_each([&](Point place, Point u) {
             quarter[cross(t, place) > 0.0][dot(t, place) < 0.0].add(place, u);
@@ -141,7 +154,7 @@ FaultSegment most_active_plane(const Displacements& s, Members members, Point ce
             continue;
         const double slip = slip_along(t, {left, right}, {behind, ahead}, diameter);
         if (std::abs(slip) > std::abs(best.slip)) {
-            best.angle = angle;
+            best.angle = angle_of(planes, a);
             best.slip = slip;
         }
     }
@@ -149,16 +162,15 @@ FaultSegment most_active_plane(const Displacements& s, Members members, Point ce
 }
 
 FaultSegment along_fault(const Displacements& s, Members members, const FaultSegment& f,
-                         int angles) {
+                         std::span<const Point> planes) {
     const Circle circle(s, members, f.centre);
     FaultSegment along = f;
     double most = 0.0;
-    for (int a = 0; a < angles; ++a) {
-        const double angle = pi * a / angles;
-        const TwoBlocks fit = fit_two_blocks(circle, angle);
+    for (std::size_t a = 0; a < planes.size(); ++a) {
+        const TwoBlocks fit = fit_two_blocks(circle, planes[a]);
         if (fit.explained > most) {
             most = fit.explained;
-            along.angle = angle;
+            along.angle = angle_of(planes, a);
             along.slip = std::copysign(f.slip, fit.slip);
         }
     }

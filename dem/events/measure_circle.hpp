@@ -29,6 +29,9 @@ struct FaultSegment {
     double slip = 0.0;  ///< displacement of the left half less the right half's, along it, m
 };
 
+/// Directions of planes at equal angles in [0, pi): (1, 0) first.
+std::vector<Point> plane_directions(int angles);
+
 /// The most active plane through a point [paper, Fig. 4d], from the discs of the circle around it.
 ///
 /// Two cuts at right angles give the differences dU of the halves' mean displacements and dX of
@@ -39,16 +42,16 @@ struct FaultSegment {
 ///
 /// @param circle  indices of discs in s
 /// @param diameter  of the circle, m. Where rock ends in it the halves are closer, and that counts.
-/// @param angles  tried, in [0, pi)
+/// @param planes  directions that are tried: see plane_directions()
 /// @return slip 0 where discs are too few on a side or in line
 FaultSegment most_active_plane(const Displacements& s, std::span<const std::int32_t> circle,
-                               Point centre, double diameter, int angles);
+                               Point centre, double diameter, std::span<const Point> planes);
 
 /// The segment along the fault itself: a strain is equal on two planes at right angles, and where
 /// discs slide along a line in one of them only. It is the plane for which slip of two halves that
 /// turn together explains most of the discs' displacements.
 FaultSegment along_fault(const Displacements& s, std::span<const std::int32_t> circle,
-                         const FaultSegment& f, int angles);
+                         const FaultSegment& f, std::span<const Point> planes);
 
 /// No plane in the circle slips by more than this, m: what makes a search worth its while.
 double slip_bound(const Displacements& s, std::span<const std::int32_t> circle, Point centre);

@@ -1,5 +1,6 @@
 #include "dem/genesis/detachment.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <cassert>
@@ -46,7 +47,7 @@ Chain detachment_chain(const DetachmentParameters& detachment, double reach) {
     double dip = detachment.start_dip;
     for (const DetachmentSegment& piece : detachment.segments) {
         dip = piece.start_dip.value_or(dip);
-        const Point along{std::cos(dip * degree), -std::sin(dip * degree)};
+        const Point along{cosine(dip * degree), -sine(dip * degree)};
         if (piece.kind == DetachmentSegment::Kind::arc) {
             chain.push_back(arc(start, along, piece.radius, (dip - piece.end_dip) * degree));
             dip = piece.end_dip;

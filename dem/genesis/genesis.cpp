@@ -88,33 +88,36 @@ void release_pressure(State& state, const RigidBase& base, const CyclePhysics& p
     stop_discs(state);
 }
 
-/// Drops discs above the level, found by bisection, that brings the mean top of columns one mean
-/// diameter wide to y = 0. Columns without a disc have no top: the wedge over a gentle breakaway
-/// may be too thin for one.
-void trim(State& state, double length) {
-    const DiscColumns d = disc_columns(state);
+/// Mean top of columns one mean diameter wide, m, of the discs below a level. Columns without a
+/// disc have no top: the wedge over a gentle breakaway may be too thin for one. None at all:
+/// nothing.
+std::optional<double> mean_top(const State& state, double length, double level) {
+    const ConstDiscColumns d = disc_columns(state);
     const double width = 2.0 * state.mean_radius;
     const auto columns = static_cast<std::size_t>(length / width);
     constexpr double none = -1e300;
-    const auto mean_top = [&](double cut) {
-        std::vector<double> top(columns, none);
-        for (std::size_t i = 0; i < d.x.size(); ++i) {
-            const double x = d.x[i] / width;
-            if (d.y[i] + d.radius[i] <= cut && x >= 0.0 && x < static_cast<double>(columns)) {
-                double& t = top[static_cast<std::size_t>(x)];
-                t = std::max(t, d.y[i] + d.radius[i]);
-            }
+    std::vector<double> top(columns, none);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = d.x[i] / width;
+        if (d.y[i] + d.radius[i] <= level && x >= 0.0 && x < static_cast<double>(columns)) {
+            double& t = top[static_cast<std::size_t>(x)];
+            t = std::max(t, d.y[i] + d.radius[i]);
         }
-        std::erase(top, none);
-        return top.empty()
-                   ? none
-                   : std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(top.size());
-    };
-    double low = -2.0 * width, high = 20.0 * width;
+    }
+    std::erase(top, none);
+    if (top.empty())
+        return std::nullopt;
+    return std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(top.size());
+}
+
+/// Drops discs above the level, found by bisection, that brings the mean top to y = 0.
+void trim(State& state, double length) {
+    double low = -4.0 * state.mean_radius, high = 40.0 * state.mean_radius;
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (mean_top(middle) < 0.0 ? low : high) = middle;
+        (mean_top(state, length, middle).value_or(-1.0) < 0.0 ? low : high) = middle;
     }
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
     std::vector<std::int32_t> kept;
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.y[i] + d.radius[i] <= high)
@@ -211,6 +214,14 @@ double lightest_density(const GenesisRequest& request, double density) {
     return lightest;
 }
 
+/// Height that the weight of the hanging wall takes from it, m, where it is thickest.
+double elastic_settlement(const GenesisRequest& request) {
+    const HangingWallParameters& p = request.hanging_wall;
+    return 0.5 * p.thickness *
+           compression_at_depth(request.materials[basement],
+                                p.rock_density * request.physics.gravity * p.thickness);
+}
+
 /// Motion of discs counts from here.
 void begin_history(State& state) {
     const DiscColumns d = disc_columns(state);
@@ -226,6 +237,10 @@ void begin_history(State& state) {
 }
 
 } // namespace
+
+double compression_at_depth(const Material& rock, double weight) {
+    return weight / (0.6 * 0.5 * rock.normal_stiffness);
+}
 
 double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment) {
     double area = 0.0, length = 0.0;
@@ -269,7 +284,8 @@ State make_hanging_wall(const GenesisRequest& request,
     const auto [smallest, largest] = radius_range(p.mean_radius, p.radius_ratio);
 
     // Gravity and trimming take some height; the lid leaves it.
-    const double lid = 0.02 * p.thickness + 4.0 * p.mean_radius;
+    const double lid =
+        std::max(0.02 * p.thickness, 1.5 * elastic_settlement(request)) + 4.0 * p.mean_radius;
     RigidBase closed = request.base;
     closed.motion = {};
     for (Surface& s : closed.surfaces)
@@ -326,6 +342,16 @@ State make_hanging_wall(const GenesisRequest& request,
     lay(state, request);
     sort_discs(state);
     settle_under_gravity(state, open, physics, crossing, "second equilibrium", execution, report);
+    // Soft rock rises when the load above is cut off.
+    constexpr double uneven = 0.25; // mean radii
+    if (mean_top(state, p.length, std::numeric_limits<double>::infinity()).value_or(0.0) >
+        uneven * p.mean_radius) {
+        trim(state, p.length);
+        set_masses(state, p.rock_density, area);
+        lay(state, request);
+        sort_discs(state);
+        settle_under_gravity(state, open, physics, crossing, "levelling", execution, report);
+    }
 
     soften(state, open, request, physics, crossing, execution, report);
 

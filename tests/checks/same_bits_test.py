@@ -14,6 +14,12 @@ class SameBits(unittest.TestCase):
         for text in ("return hypot(x, y);", "::hypot (x, y)", "hypotf(x, y)", "std::hypot(x,\n y)"):
             self.assertEqual(len(self.found(text, "apps/measures/paper/blocks.cpp")), 1, text)
 
+    def test_elementary_functions(self):
+        for text in ("std::sin(x)", "exp(x)", "::pow(x, 2)", "std::log(x)", "std::atan2f(y, x)"):
+            self.assertEqual(len(self.found(text, "fluid/pore_law.cpp")), 1, text)
+        for text in ("sine(x)", "dem::exponential(x)", "Log log(quiet);", '"tan(angle)"', "a.array().exp()"):
+            self.assertEqual(self.found(text), [], text)
+
     def test_other_words(self):
         for text in ("hypotenuse(x, y)", "// Without std::hypot(x, y)\n", "/* hypot(\n) */", "my_hypot(1, 2)"):
             self.assertEqual(self.found(text), [], text)

@@ -7,6 +7,7 @@
 #include "apps/measures/strata/rock.hpp"
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -157,9 +158,10 @@ private:
 
     SeismicRock rock_at(int stratum, double porosity, bool is_weak) const {
         const double depth = (0.5 - stratum) * layer_; // of pre-rift rock, at the start
-        SeismicRock rock = saturated_rock(
-            law_,
-            stratum > 0 ? porosity : pre_rift_porosity * std::exp(-porosity_decay_per_m * depth));
+        SeismicRock rock =
+            saturated_rock(law_, stratum > 0 ? porosity
+                                             : pre_rift_porosity *
+                                                   dem::exponential(-porosity_decay_per_m * depth));
         rock.velocity *= stratum % 2 == 0 ? 1.0 + law_.contrast : 1.0 - law_.contrast;
         if (is_weak)
             rock.velocity *= law_.weak_factor;
@@ -188,13 +190,14 @@ private:
 
 /// Weighs traces with a normal distribution along x.
 void blur(SeismicSection& section) {
-    const double deviation = section.options.lateral / (2.0 * std::sqrt(2.0 * std::log(2.0))) /
+    const double deviation = section.options.lateral /
+                             (2.0 * std::sqrt(2.0 * dem::logarithm(2.0))) /
                              section.options.trace_spacing; // traces
     const auto reach = static_cast<std::size_t>(std::ceil(3.0 * deviation));
     std::vector<double> weights;
     for (std::size_t k = 0; k <= reach; ++k) {
         const double place = static_cast<double>(k) / deviation;
-        weights.push_back(std::exp(-0.5 * place * place));
+        weights.push_back(dem::exponential(-0.5 * place * place));
     }
     const std::vector<float> sharp = section.amplitude;
     const std::size_t samples = section.samples;

@@ -2,6 +2,9 @@
 
 #include "dem/base/just_before.hpp"
 #include "dem/contacts/power_cell.hpp"
+#include "dem/hypotenuse.hpp"
+
+#include <utility>
 
 namespace listric::measures {
 
@@ -21,9 +24,42 @@ constexpr Quantity dilation_fraction{"rock_dilation_fraction", "1",
                                      "with 1 - `area_balance`; none once a "
                                      "stage has shortened"};
 
+constexpr Quantity elastic_area{
+    "elastic_area_m2", "m2", "elastic part of rock's dilation",
+    "part of `rock_dilation_m2` that is elastic: what the pre-rift discs that are sound then and "
+    "now "
+    "are less compressed by their contacts than at the start. It grows with `cycle.softness`"};
+constexpr Quantity elastic_fraction{elastic_area_fraction, "1",
+                                    "elastic part over extension × thickness",
+                                    "`elastic_area_m2` over extension × thickness: `area_balance` "
+                                    "plus this is judged, so that stiff "
+                                    "and soft discs are compared alike"};
+
+/// Fills in what presses the pre-rift discs, but soft and weakened ones: those are enlarged to keep
+/// their volume.
+void add_contacts(RockPacking& rock, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    rock.overlap.assign(static_cast<std::size_t>(state.next_id), 0.0);
+    rock.reach = rock.overlap;
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double length = d.radius[i] + d.radius[j];
+        const double overlap = length - hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]);
+        if (overlap <= 0.0)
+            continue;
+        for (const std::size_t disc : {i, j})
+            if (d.stratum[disc] == 0 && !is_soft(state.materials, d.material[disc])) {
+                rock.overlap[static_cast<std::size_t>(d.id[disc])] += overlap * length;
+                rock.reach[static_cast<std::size_t>(d.id[disc])] += length * length;
+            }
+    }
+}
+
 } // namespace
 
-std::vector<double> rock_cells(const State& state, const RigidBase& base) {
+RockPacking rock_packing(const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<std::int32_t> rock;
     for (std::size_t i = 0; i < d.x.size(); ++i)
@@ -35,34 +71,43 @@ std::vector<double> rock_cells(const State& state, const RigidBase& base) {
         if (cells[k].closed)
             areas[static_cast<std::size_t>(d.id[static_cast<std::size_t>(rock[k])])] =
                 cells[k].area;
-    return areas;
+    RockPacking packing{std::move(areas), {}, {}};
+    add_contacts(packing, state);
+    return packing;
 }
 
 NamedNumbers measure_dilation(const RunSoFar& run) {
     if (run.past.empty() || !(run.extension > run.past.front().places.extension))
         return {};
-    const std::vector<double>& before = run.past.front().rock_cells;
-    const std::vector<double> now = rock_cells(run.now, run.base);
+    const RockPacking& before = run.past.front().rock;
+    const RockPacking now = rock_packing(run.now, run.base);
     // A cell that is open, at a surface or beside a gap, says nothing; it is taken to have grown as
     // the others on average.
-    double closed = 0.0, growth = 0.0, all = 0.0;
-    for (std::size_t id = 0; id < before.size(); ++id) {
-        all += before[id];
-        if (before[id] > 0.0 && now[id] > 0.0) {
-            closed += before[id];
-            growth += now[id] - before[id];
+    double closed = 0.0, growth = 0.0, elastic = 0.0, all = 0.0;
+    for (std::size_t id = 0; id < before.cells.size(); ++id) {
+        all += before.cells[id];
+        if (before.cells[id] > 0.0 && now.cells[id] > 0.0) {
+            closed += before.cells[id];
+            growth += now.cells[id] - before.cells[id];
+            // What has weakened keeps the volume that it had.
+            if (before.overlap[id] > 0.0 && now.overlap[id] > 0.0)
+                elastic += before.cells[id] * 2.0 * (before.overlap[id] - now.overlap[id]) /
+                           before.reach[id];
         }
     }
     NamedNumbers numbers; // not finite without closed cells
-    const double grown = growth * all / closed;
-    add(numbers, dilation, grown);
-    if (!run.base.motion.shortens(just_before(run.base.motion, run.now.clock)))
-        add(numbers, dilation_fraction, grown / (run.extension.m * run.setting.thickness));
+    const double scale = all / closed, moved = run.extension.m * run.setting.thickness;
+    add(numbers, dilation, growth * scale);
+    add(numbers, elastic_area, elastic * scale);
+    if (!run.base.motion.shortens(just_before(run.base.motion, run.now.clock))) {
+        add(numbers, dilation_fraction, growth * scale / moved);
+        add(numbers, elastic_fraction, elastic * scale / moved);
+    }
     return numbers;
 }
 
 std::span<const Quantity> dilation_quantities() {
-    static constexpr Quantity all[] = {dilation, dilation_fraction};
+    static constexpr Quantity all[] = {dilation, dilation_fraction, elastic_area, elastic_fraction};
     return all;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/measures/basin/kinematics.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
@@ -84,7 +85,7 @@ std::vector<double> heights(const std::vector<Point>& curve, std::span<const dou
 
 std::vector<Point> inclined_shear_top(const Chain& detachment, double extension, double angle,
                                       double right) {
-    const double tangent = std::tan(angle * pi / 180.0);
+    const double tangent = dem::tangent(angle * pi / 180.0);
     const ShearCoordinate fault(detachment, tangent);
     std::vector<Point> top;
     const double deepest = -point_at(detachment, length_of(detachment)).y;
@@ -118,7 +119,7 @@ std::vector<Point> normals_top(const Chain& detachment, double extension, double
 
 double normals_tilt(const Chain& detachment, double extension) {
     const Point a = tangent_at(detachment, 0.0), b = tangent_at(detachment, extension);
-    return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y) * 180.0 / pi;
+    return dem::arc_tangent(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y) * 180.0 / pi;
 }
 
 double normals_halfgraben_share(const Chain& detachment, double extension, double right) {
@@ -186,7 +187,7 @@ InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
 
 double turning_length(const Chain& detachment) {
     constexpr double less = 0.5 * pi / 180.0, steeper = 5.0 * pi / 180.0;
-    const auto dip = [](Point tangent) { return std::atan2(-tangent.y, tangent.x); };
+    const auto dip = [](Point tangent) { return dem::arc_tangent(-tangent.y, tangent.x); };
     double at = 0.0, end = 0.0, least = dip(detachment.front().start_tangent);
     const auto take = [&](Point tangent) {
         if (dip(tangent) < least - less) {

@@ -1,5 +1,6 @@
 #include "apps/measures/faults/strain_ridges.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
@@ -65,8 +66,8 @@ public:
         const double xy = 0.25 * (value(p + Point{h, h}) + value(p - Point{h, h}) -
                                   value(p + Point{h, -h}) - value(p + Point{-h, h}));
         // Eigenvector of the Hessian's larger eigenvalue.
-        const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-        return {std::cos(angle), std::sin(angle)};
+        const double angle = 0.5 * dem::arc_tangent(2.0 * xy, xx - yy);
+        return {dem::cosine(angle), dem::sine(angle)};
     }
 
     double step() const { return step_; }
@@ -99,7 +100,8 @@ private:
         constexpr double deviation = 2.0; // grid steps
         double kernel[reach + 1], sum = 0.0;
         for (std::ptrdiff_t k = 0; k <= reach; ++k) {
-            kernel[k] = std::exp(-0.5 * static_cast<double>(k * k) / (deviation * deviation));
+            kernel[k] =
+                dem::exponential(-0.5 * static_cast<double>(k * k) / (deviation * deviation));
             sum += (k ? 2.0 : 1.0) * kernel[k];
         }
         for (double& k : kernel)
@@ -279,7 +281,7 @@ Point end_direction(const Polyline& line) {
 /// Joins b to the end of a if it goes on in it: beyond a gap of up to 10 diameters or a side step
 /// of up to five.
 bool join_lines(Polyline& a, Polyline& b, double diameter) {
-    const double cosine = std::cos(30.0 * pi / 180.0);
+    const double cosine = dem::cosine(30.0 * pi / 180.0);
     const Point gap = b.front() - a.back();
     const Point out = end_direction(a);
     const Point in = -1.0 * end_direction(Polyline(b.rbegin(), b.rend()));

@@ -2,6 +2,7 @@
 
 #include "apps/measures/polyline.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ double length_of(const Rows& band, const ConstDiscColumns& d) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const std::int32_t row : band) {
             const auto i = static_cast<std::size_t>(row);
-            const double along = d.x[i] * std::cos(angle) + d.y[i] * std::sin(angle);
+            const double along = d.x[i] * dem::cosine(angle) + d.y[i] * dem::sine(angle);
             low = std::min(low, along - d.radius[i]);
             high = std::max(high, along + d.radius[i]);
         }

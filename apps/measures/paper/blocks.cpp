@@ -1,6 +1,7 @@
 #include "apps/measures/paper/blocks.hpp"
 
 #include "apps/measures/basin/kinematics.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -42,7 +43,7 @@ std::optional<double> rotation_of(const State& state, std::span<const std::size_
         sine += ax * by - ay * bx;
         cosine += ax * bx + ay * by;
     }
-    return std::atan2(sine, cosine) * 180.0 / pi;
+    return dem::arc_tangent(sine, cosine) * 180.0 / pi;
 }
 
 /// Mean rotation, degrees, of the square patches of a block that deforms.
@@ -78,7 +79,7 @@ std::vector<std::size_t> block_of(const State& state, const Chain& detachment, C
 }
 
 /// Dip of the detachment at a foot on it.
-double foot_dip(const Foot& foot) { return std::atan2(foot.normal.x, foot.normal.y); }
+double foot_dip(const Foot& foot) { return dem::arc_tangent(foot.normal.x, foot.normal.y); }
 
 /// Where the last piece ends that turns what slides along it, m along the chain.
 double turning_ends(const Chain& detachment) {
@@ -142,7 +143,8 @@ std::vector<std::size_t> head_block(const State& state, const Chain& detachment,
     const double turns = turning_length(detachment), still = turns - state.clock.extension.m;
     const double depth = turns > 0.0 ? -point_at(detachment, turns).y : thickness;
     const Point down = detachment.front().start_tangent;
-    const double least_dip = std::atan2(-down.y, down.x) / 3.0; // flatter, it hardly turns anything
+    const double least_dip =
+        dem::arc_tangent(-down.y, down.x) / 3.0; // flatter, it hardly turns anything
     return block_of(state, detachment, [&](Point start, const auto& foot) {
         if (-start.y > 0.5 * depth)
             return false;

@@ -1,5 +1,6 @@
 #include "apps/measures/paper/kink.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -111,12 +112,12 @@ ShearPlane shear_plane(const ShearField& field, std::size_t k) {
     // 2a, u_xy + u_yx = g cos 2a and u_xy - u_yx = g for t = (cos a, sin a).
     const PlaneShear shear = field.components(k);
     const double sign = field.xy[k] >= field.yx[k] ? 1.0 : -1.0;
-    double a = 0.5 * std::atan2(-sign * shear.stretch, sign * shear.turn);
+    double a = 0.5 * dem::arc_tangent(-sign * shear.stretch, sign * shear.turn);
     if (a > 0.0)
         a -= pi; // downward
     ShearPlane plane;
     plane.strain = shear.size();
-    plane.falls_right = std::cos(a) > 0.0;
+    plane.falls_right = dem::cosine(a) > 0.0;
     plane.dip = (plane.falls_right ? -a : a + pi) * 180.0 / pi;
     // g > 0: the left of the downward direction moves down; that is the side above a plane that
     // falls right.

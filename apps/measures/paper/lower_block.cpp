@@ -1,6 +1,7 @@
 #include "apps/measures/paper/lower_block.hpp"
 
 #include "dem/contacts/cells.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -58,7 +59,7 @@ double bounded_share(const RunSoFar& run, Point middle) {
     for (int n = 0; n < directions; ++n) {
         const double a = 2.0 * pi * n / directions;
         for (double s = 5.0 * run.diameter; s < farthest; s += 0.5 * run.diameter)
-            if (is_bound({middle.x + s * std::cos(a), middle.y + s * std::sin(a)})) {
+            if (is_bound({middle.x + s * dem::cosine(a), middle.y + s * dem::sine(a)})) {
                 ++bounded;
                 break;
             }

@@ -2,6 +2,7 @@
 
 #include "apps/measures/strata/contour.hpp"
 #include "apps/measures/strata/owner_map.hpp"
+#include "dem/elementary.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -49,9 +50,10 @@ public:
     Blur(const OwnerMap& map, double deviation) : columns_(map.columns), rows_(map.rows) {
         const double places = deviation / map.spacing;
         const auto reach = static_cast<std::size_t>(std::ceil(3.0 * places));
-        for (std::size_t k = 0; k <= reach; ++k)
-            weights_.push_back(
-                static_cast<float>(std::exp(-0.5 * std::pow(static_cast<double>(k) / places, 2))));
+        for (std::size_t k = 0; k <= reach; ++k) {
+            const double place = static_cast<double>(k) / places;
+            weights_.push_back(static_cast<float>(dem::exponential(-0.5 * place * place)));
+        }
     }
 
     /// Sums, not divided by the sum of the weights.

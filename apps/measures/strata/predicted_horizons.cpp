@@ -1,6 +1,7 @@
 #include "apps/measures/strata/predicted_horizons.hpp"
 
 #include "apps/measures/basin/kinematics.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 double grains_above_depth(const PorosityByDepth& porosity, double depth) {
     if (porosity.decay <= 0.0)
         return depth * (1.0 - porosity.surface);
-    return depth - porosity.surface / porosity.decay * (1.0 - std::exp(-porosity.decay * depth));
+    return depth -
+           porosity.surface / porosity.decay * (1.0 - dem::exponential(-porosity.decay * depth));
 }
 
 /// Depth to which so much grain reaches, m: Newton's method, from above, where it converges.
@@ -24,7 +26,7 @@ double depth_of_grains(const PorosityByDepth& porosity, double grains) {
     double depth = grains / (1.0 - porosity.surface);
     for (int round = 0; round < 50; ++round) {
         const double step = (grains_above_depth(porosity, depth) - grains) /
-                            (1.0 - porosity.surface * std::exp(-porosity.decay * depth));
+                            (1.0 - porosity.surface * dem::exponential(-porosity.decay * depth));
         depth -= step;
         if (std::abs(step) < 1e-6 * (1.0 + depth))
             break;
@@ -63,7 +65,7 @@ Polyline predicted_horizon(const Chain& detachment, double extension, double sin
     Polyline horizon = inclined_shear_top(detachment, since, angle, right);
     if (since >= extension || porosity.decay <= 0.0 || porosity.surface <= 0.0)
         return horizon;
-    const double tangent = std::tan(angle * pi / 180.0);
+    const double tangent = dem::tangent(angle * pi / 180.0);
     const Polyline pre_rift = inclined_shear_top(detachment, extension, angle, right);
     if (pre_rift.empty())
         return horizon;

@@ -7,6 +7,7 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -141,7 +142,7 @@ NamedNumbers measure_porosity(const State& state, const Sediment& sediment, doub
                               (sediment.disc_density * pi * radius * radius);
         const double depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
         const double expected =
-            sediment.surface_porosity * std::exp(-*sediment.porosity_decay * depth);
+            sediment.surface_porosity * dem::exponential(-*sediment.porosity_decay * depth);
         const double off = std::abs((1.0 - grains) / expected - 1.0);
         all += d.mass[i];
         error += d.mass[i] * off;

@@ -1,5 +1,6 @@
 #include "apps/measures/strata/seismic_trace.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ std::vector<Reflection> reflections(std::span<const SeismicLayer> layers) {
 
 double ricker(double time, double frequency) {
     const double a = dem::pi * frequency * time;
-    return (1.0 - 2.0 * a * a) * std::exp(-a * a);
+    return (1.0 - 2.0 * a * a) * dem::exponential(-a * a);
 }
 
 double ricker_period(double frequency) { return std::sqrt(6.0) / (dem::pi * frequency); }

@@ -7,6 +7,7 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "dem/elementary.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
 
@@ -291,7 +292,7 @@ double memory(const Scene& scene) {
     const fem::FootwallRequest request = make_footwall_request(scene, make_parts(scene));
     const fem::BlockMesh mesh = fem::make_blocks(request);
     const double cells =
-        static_cast<double>(mesh.cells.size()) * std::pow(4.0, mesh.halvings + base.refinements);
+        static_cast<double>(mesh.cells.size()) * dem::power(4.0, mesh.halvings + base.refinements);
     const double on_detachment =
         2.0 * base.bending.degree *
         std::ldexp(request.interface_end / base.cell_size, base.refinements);

@@ -2,6 +2,7 @@
 #include "apps/scene/parameters/stage.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "dem/elementary.hpp"
 
 #include <cmath>
 
@@ -16,7 +17,7 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     fem::FootwallRequest request;
     for (const Segment& s : parts.base.surfaces.front().chain)
         request.detachment.push_back({{s.start.x, s.start.y},
-                                      std::atan2(s.start_tangent.y, s.start_tangent.x),
+                                      dem::arc_tangent(s.start_tangent.y, s.start_tangent.x),
                                       s.length,
                                       s.curvature});
     request.left = base.bending.left;
@@ -59,7 +60,7 @@ CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts
     p.mass_factor = base.mass_factor;
     p.swing_damping = base.swing_damping;
     p.damping = scene.cycle.damping;
-    p.contact_stiffness = node_stiffness(scene.basement, parts.materials, node_spacing,
+    p.contact_stiffness = node_stiffness(parts.base.material, parts.materials, node_spacing,
                                          scene.hanging_wall.mean_radius);
     p.gravity = parts.physics.gravity;
     p.wall_x = scene.hanging_wall.length;

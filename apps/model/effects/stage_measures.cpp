@@ -2,6 +2,7 @@
 
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -145,8 +146,9 @@ std::optional<double> null_point(const State& state, const Motion& motion,
             for (std::size_t i = 0; i < d.x.size(); ++i) {
                 if (d.stratum[i] <= 0 || d.stratum[i] > stratum || d.x[i] < from || d.x[i] > to)
                     continue;
-                const double then = decompaction->surface_porosity *
-                                    std::exp(-decompaction->decay * std::max(0.0, top - d.y[i]));
+                const double then =
+                    decompaction->surface_porosity *
+                    dem::exponential(-decompaction->decay * std::max(0.0, top - d.y[i]));
                 if (then > porosity[i])
                     lost +=
                         pi * d.radius[i] * d.radius[i] * ((1.0 - porosity[i]) / (1.0 - then) - 1.0);

@@ -1,4 +1,5 @@
 #include "apps/run/forecast/time_left.hpp"
+#include "dem/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ double TimeLeft::pace() const {
 
 /// Seconds of figures and report, another program's work, whose pace cycles tell in part: of the
 /// powers of their pace that were tried, 3/4 fits recorded runs best.
-double TimeLeft::figures() const { return std::pow(pace(), 0.75) * forecast_.after; }
+double TimeLeft::figures() const { return dem::power(pace(), 0.75) * forecast_.after; }
 
 double TimeLeft::at(double clock) const {
     if (share_ < 0.0)

@@ -2,6 +2,7 @@
 
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/words/log.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <Eigen/Dense>
@@ -41,7 +42,7 @@ struct Pieces {
 
 double turn_of(const Pieces& pieces, std::size_t k) { return pieces.dip[k] - pieces.dip[k + 1]; }
 
-Point along(double dip) { return {std::cos(dip), -std::sin(dip)}; }
+Point along(double dip) { return {dem::cosine(dip), -dem::sine(dip)}; }
 
 /// @param reach  of the line at the end, m
 Chain chain_of(const Pieces& pieces, double reach) {
@@ -95,9 +96,10 @@ struct Distances {
         Pieces p;
         Eigen::Index next = 0;
         for (std::size_t k = 0; k < pieces; ++k)
-            p.length.push_back(shortest + std::exp(std::min(x(next++), std::log(1e6))));
+            p.length.push_back(shortest +
+                               dem::exponential(std::min(x(next++), dem::logarithm(1e6))));
         for (std::size_t k = 0; k < pieces + (flat_end ? 0 : 1); ++k)
-            p.dip.push_back(0.25 * pi * (1.0 + std::sin(x(next++))));
+            p.dip.push_back(0.25 * pi * (1.0 + dem::sine(x(next++))));
         if (flat_end)
             p.dip.push_back(0.0);
         return p;
@@ -106,11 +108,11 @@ struct Distances {
         VectorXd x(inputs());
         Eigen::Index next = 0;
         for (double length : p.length)
-            x(next++) = std::log(std::max(1.0, length - shortest));
+            x(next++) = dem::logarithm(std::max(1.0, length - shortest));
         for (std::size_t k = 0; k < pieces + (flat_end ? 0 : 1); ++k) {
             // At an end of the range nothing would change with x.
             const double share = std::clamp(p.dip[k] / (0.25 * pi) - 1.0, -0.9999, 0.9999);
-            x(next++) = std::asin(share);
+            x(next++) = dem::arc_sine(share);
         }
         return x;
     }
@@ -155,7 +157,7 @@ double dip_at(const Pieces& pieces, double place) {
 
 /// Dip of the line from one point to another, within 0 and 90 degrees.
 double dip_between(Point a, Point b) {
-    return std::clamp(std::atan2(a.y - b.y, b.x - a.x), 0.0, 0.5 * pi);
+    return std::clamp(dem::arc_tangent(a.y - b.y, b.x - a.x), 0.0, 0.5 * pi);
 }
 
 class Fit {
@@ -296,11 +298,11 @@ private:
 /// the arc before it would by going on until it is flat.
 bool ends_flat(const Pieces& pieces, double length, double tolerance) {
     const double dip = pieces.dip.back();
-    if (std::max(0.0, length - pieces.end()) * std::sin(dip) <= tolerance && dip < 0.5 * pi * 0.1)
+    if (std::max(0.0, length - pieces.end()) * dem::sine(dip) <= tolerance && dip < 0.5 * pi * 0.1)
         return true;
     const std::size_t last = pieces.length.size() - 1;
     const double turn = turn_of(pieces, last);
-    return turn > 0.0 && (1.0 - std::cos(dip)) * pieces.length[last] / turn <= tolerance;
+    return turn > 0.0 && (1.0 - dem::cosine(dip)) * pieces.length[last] / turn <= tolerance;
 }
 
 /// A piece that turns by less than 0.006 degrees is a line: a scene has no arc of so large a

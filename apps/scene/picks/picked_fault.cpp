@@ -8,6 +8,7 @@
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +88,9 @@ void check_breakaway(const FaultPoints& fault, double tolerance) {
 }
 
 /// Angle between two directions, radians.
-double angle_between(Point a, Point b) { return std::abs(std::atan2(cross(a, b), dot(a, b))); }
+double angle_between(Point a, Point b) {
+    return std::abs(dem::arc_tangent(cross(a, b), dot(a, b)));
+}
 
 /// How far the fault may be from what is fitted between two points: half the height of the triangle
 /// whose sides go on as the fault comes to the first and leaves the last. The directions are taken
@@ -107,7 +110,8 @@ double uncertainty(const std::vector<Point>& p, std::size_t k) {
         const double b = angle_between(gap, p[after] - p[k + 1]);
         const double flatter = std::min({a, b, 0.25 * pi}), steeper = std::min(std::max(a, b), 1.5);
         const double height =
-            flatter > 0.0 ? length / (1.0 / std::tan(flatter) + 1.0 / std::tan(steeper)) : 0.0;
+            flatter > 0.0 ? length / (1.0 / dem::tangent(flatter) + 1.0 / dem::tangent(steeper))
+                          : 0.0;
         least = std::min(least, 0.5 * height);
     }
     return least;

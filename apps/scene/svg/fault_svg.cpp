@@ -7,6 +7,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -173,17 +174,18 @@ std::vector<Vector2d> rounded(const std::vector<Vector2d>& points, double off) {
         const Vector2d in = k > 0 ? Vector2d(points[k] - points[k - 1]) : Vector2d(0.0, 0.0);
         const Vector2d out =
             k + 1 < points.size() ? Vector2d(points[k + 1] - points[k]) : Vector2d(0.0, 0.0);
-        const double turn = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+        const double turn =
+            std::abs(dem::arc_tangent(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
         if (in.norm() == 0.0 || out.norm() == 0.0 || turn < sharp || turn > reversed) {
             round.push_back(points[k]);
             continue;
         }
-        const double radius = off / (1.0 / std::cos(0.5 * turn) - 1.0);
+        const double radius = off / (1.0 / dem::cosine(0.5 * turn) - 1.0);
         const double reach =
-            std::min({radius * std::tan(0.5 * turn), 0.5 * in.norm(), 0.5 * out.norm()});
+            std::min({radius * dem::tangent(0.5 * turn), 0.5 * in.norm(), 0.5 * out.norm()});
         const Vector2d begin = points[k] - reach * in.normalized();
         const Vector2d centre_way = (out.normalized() - in.normalized()).normalized();
-        const Vector2d centre = points[k] + reach / std::sin(0.5 * turn) * centre_way;
+        const Vector2d centre = points[k] + reach / dem::sine(0.5 * turn) * centre_way;
         const double way = in.x() * out.y() - in.y() * out.x() > 0.0 ? 1.0 : -1.0;
         for (int j = 0; j <= steps; ++j)
             round.push_back(centre + Eigen::Rotation2Dd(way * turn * j / steps) * (begin - centre));

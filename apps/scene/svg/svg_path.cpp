@@ -2,6 +2,7 @@
 
 #include "apps/scene/svg/svg_text.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "dem/elementary.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -161,7 +162,7 @@ private:
             std::sqrt(std::max(0.0, 1.0 / needed() - 1.0)) * (large == sweep ? -1.0 : 1.0);
         const Vector2d centre(size * rx * half.y() / ry, -size * ry * half.x() / rx);
         const auto angle = [&](const Vector2d& p) {
-            return std::atan2((p.y() - centre.y()) / ry, (p.x() - centre.x()) / rx);
+            return dem::arc_tangent((p.y() - centre.y()) / ry, (p.x() - centre.x()) / rx);
         };
         const double begin = angle(half);
         double turn = angle(-half) - begin;
@@ -218,7 +219,7 @@ Vector2d point_on(const SvgPiece& piece, const Vector2d& start, double t) {
                t * t * t * piece.end;
     case SvgPiece::Kind::arc: {
         const double angle = piece.begin + piece.turn * t;
-        return piece.centre + std::cos(angle) * piece.first + std::sin(angle) * piece.second;
+        return piece.centre + dem::cosine(angle) * piece.first + dem::sine(angle) * piece.second;
     }
     case SvgPiece::Kind::line:
         break;

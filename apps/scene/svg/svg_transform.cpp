@@ -2,6 +2,7 @@
 
 #include "apps/scene/svg/svg_text.hpp"
 #include "apps/support/words/text.hpp"
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -123,11 +124,11 @@ Affine one_transformation(SvgText& text, bool css) {
         return translation(v.length(1), v.length(2)) * Eigen::Rotation2Dd(v.angle(0)) *
                translation(-v.length(1), -v.length(2));
     if (has("skewX", 1, 1))
-        return sheared(std::tan(v.angle(0)), 0.0);
+        return sheared(dem::tangent(v.angle(0)), 0.0);
     if (has("skewY", 1, 1))
-        return sheared(0.0, std::tan(v.angle(0)));
+        return sheared(0.0, dem::tangent(v.angle(0)));
     if (css && has("skew", 1, 2))
-        return sheared(std::tan(v.angle(0)), n == 2 ? std::tan(v.angle(1)) : 0.0);
+        return sheared(dem::tangent(v.angle(0)), n == 2 ? dem::tangent(v.angle(1)) : 0.0);
     text.refuse(fmt::format("the transformation {} with {} number{} is not read, allowed: matrix, "
                             "translate, scale, rotate, skewX, skewY",
                             shown(name), n, n == 1 ? "" : "s"));

@@ -1,4 +1,5 @@
 #include "apps/studies/fit/draft_fit.hpp"
+#include "dem/elementary.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -97,8 +98,10 @@ std::optional<DraftFit> fit_drafts(const DraftDesign& design, std::span<const Dr
     };
     DraftFit fit;
     double squared = 0.0;
-    for (const DraftMisfit& draft : made)
-        squared += std::pow(misfit_at(place_in(design, draft.shape)) - *draft.misfit, 2);
+    for (const DraftMisfit& draft : made) {
+        const double off = misfit_at(place_in(design, draft.shape)) - *draft.misfit;
+        squared += off * off;
+    }
     fit.residual = std::sqrt(squared / static_cast<double>(count - terms));
     constexpr int values = 2 * steps_of_search + 1;
     const auto coordinate = [](int k) { return static_cast<double>(k) / steps_of_search - 1.0; };

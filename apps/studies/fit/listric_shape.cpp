@@ -1,5 +1,6 @@
 #include "apps/studies/fit/listric_shape.hpp"
 
+#include "dem/elementary.hpp"
 #include "dem/units.hpp"
 
 #include <cmath>
@@ -14,13 +15,13 @@ constexpr double flat = 60e3;         ///< m, as of shipped scenes
 } // namespace
 
 double ListricShape::line_length() const {
-    const double length = straight * depth / std::sin(dip * dem::pi / 180.0);
+    const double length = straight * depth / dem::sine(dip * dem::pi / 180.0);
     return length < shortest_line ? 0.0 : length;
 }
 
 double ListricShape::radius() const {
     const double radians = dip * dem::pi / 180.0;
-    return (depth - line_length() * std::sin(radians)) / (1.0 - std::cos(radians));
+    return (depth - line_length() * dem::sine(radians)) / (1.0 - dem::cosine(radians));
 }
 
 dem::DetachmentParameters detachment_of(const ListricShape& shape) {

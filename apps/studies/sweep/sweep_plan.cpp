@@ -9,6 +9,7 @@
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
+#include "dem/elementary.hpp"
 #include "dem/random.hpp"
 
 #include <fmt/format.h>
@@ -107,7 +108,8 @@ std::vector<Entry> elements(const Entry& entry, std::string_view allowed) {
 SweepValue value_between(std::pair<double, double> ends, double share) {
     const auto [least, greatest] = ends;
     const double narrowness = std::max(-least, greatest) / (greatest - least);
-    const int digits = 6 + static_cast<int>(std::log10(std::clamp(narrowness, 1.0, 1e11)));
+    const int digits =
+        6 + static_cast<int>(dem::logarithm_to_base_10(std::clamp(narrowness, 1.0, 1e11)));
     const std::string text = fmt::format("{:.{}g}", std::lerp(least, greatest, share), digits);
     return {text, text, parse_number(text)};
 }

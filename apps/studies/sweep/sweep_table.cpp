@@ -5,6 +5,7 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
+#include "dem/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -153,7 +154,7 @@ std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const Sweep
         const bool by_factors = ordered && go_by_factors(numbers);
         if (by_factors)
             for (double& number : numbers)
-                number = std::log(number);
+                number = dem::logarithm(number);
         const auto [least, greatest] =
             ordered ? std::ranges::minmax(numbers) : std::ranges::minmax_result<double>{0.0, 1.0};
         for (const SweepRow& row : rows) {
@@ -161,7 +162,7 @@ std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const Sweep
             const auto word =
                 static_cast<std::size_t>(std::ranges::find(texts, value.text) - texts.begin());
             const double x = !ordered     ? static_cast<double>(word)
-                             : by_factors ? std::log(*value.number)
+                             : by_factors ? dem::logarithm(*value.number)
                                           : *value.number;
             factor.place.push_back(2.0 * (x - least) / (greatest - least) - 1.0);
             if (!ordered && texts.size() > 2)

@@ -1,4 +1,5 @@
 #include "apps/support/words/moment_names.hpp"
+#include "dem/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ std::string shortened(std::string text, std::size_t least) {
 /// Decimals of a window's end; lengths in km.
 int kilometre_decimals(double value, double interval) {
     for (int decimals = 1;; ++decimals) {
-        const double unit = std::pow(10.0, -decimals);
+        const double unit = dem::power(10.0, -decimals);
         const double rest = std::abs(value - std::round(value / unit) * unit);
         const bool is_near = rest < std::min(0.05 * unit, 0.25 * interval);
         if (is_near || (decimals >= 2 && 0.5 * interval > unit) || decimals == most_decimals)
@@ -52,7 +53,7 @@ std::pair<double, const char*> unit_of(double length) {
 
 int decimals_for(double step, int least) {
     int decimals = least;
-    while (decimals < most_decimals && !(0.5 * step > std::pow(10.0, -decimals)))
+    while (decimals < most_decimals && !(0.5 * step > dem::power(10.0, -decimals)))
         ++decimals;
     return decimals;
 }
@@ -121,7 +122,7 @@ std::optional<double> MomentNames::window_end(std::string_view metres) const {
     if (!named)
         return std::nullopt;
     const auto decimals = static_cast<int>(metres.size() - metres.find('.') - 1);
-    const double half_a_unit = 0.5 * std::pow(10.0, -decimals) * (1.0 + 1e-6);
+    const double half_a_unit = 0.5 * dem::power(10.0, -decimals) * (1.0 + 1e-6);
     // The nearest one: without its last zeros a name is coarser than the windows.
     const auto next = std::ranges::lower_bound(ends_, *named);
     std::optional<double> found;

@@ -52,6 +52,28 @@ TEST(Quality, AsksEveryQuestionOfAGoodRun) {
                                      "0.95 to 1.03", "5 to interpret", "lis1: 0.96 to 1.12"));
 }
 
+TEST(Quality, StillGroundKeepsItsLevel) {
+    JsonObject run = good_run();
+    for (const auto& [rise, verdict] :
+         {std::pair(46.0, QualityVerdict::good), std::pair(-47.0, QualityVerdict::doubtful)}) {
+        run["still_ground_m"] = rise; // half a radius of 93.1 m
+        EXPECT_EQ(check_named(checks_of(run), "still_ground_m").verdict, verdict) << rise;
+        EXPECT_EQ(check_named(checks_of(run, true), "still_ground_m").verdict,
+                  QualityVerdict::note);
+    }
+    EXPECT_THAT(verdict_lines(checks_of(run))[0], testing::HasSubstr("still ground moves"));
+}
+
+TEST(Quality, WhatRockUnloadedIsNoLossOfArea) {
+    JsonObject run = good_run();
+    run["area_balance"] = 0.93;
+    EXPECT_EQ(check_named(checks_of(run), "area_balance").verdict, QualityVerdict::doubtful);
+    run["elastic_area_fraction"] = 0.03;
+    const QualityCheck check = check_named(checks_of(run), "area_balance");
+    EXPECT_EQ(check.verdict, QualityVerdict::good);
+    EXPECT_EQ(check.value, "0.930, 0.960 as if rock were rigid");
+}
+
 TEST(Quality, EveryBoundCanBeMissed) {
     const std::pair<const char*, JsonObject> bad[] = {{"quasi_static", false},
                                                       {"mass_error_fraction", 1e-12},

@@ -199,7 +199,7 @@ TEST(Dilation, OfThePackingAlone) {
         const auto found = measure_dilation(RunSoFar(setting, base, state, past));
         EXPECT_NEAR(found.at(1).second, found.at(0).second / (1e3 * 15e3), 1e-12);
         double all = 0.0;
-        for (double area : past[0].rock_cells)
+        for (double area : past[0].rock.cells)
             all += area;
         return found.at(0).second / all;
     };
@@ -214,6 +214,60 @@ TEST(Dilation, OfThePackingAlone) {
                     return Point{p.x + (p.x > middle ? gap : 0.0), p.y};
                 }),
                 share, 0.04 * share);
+}
+
+/// A pressed square of rock whose contacts give back half of their overlap: all of its growth is
+/// elastic but where rock was weakened meanwhile, and the overlap that is left counts for nothing.
+TEST(Dilation, PartOfItIsElastic) {
+    constexpr double pressed = 0.02, share = 0.01; // overlap over length, and what is given back
+    RigidBase base;
+    base.surfaces = {{"detachment", {line({-1e6, -1e6}, {1e6, -1e6})}, 0.0}};
+    Setting setting;
+    setting.thickness = 15e3;
+    std::vector<Disc> discs;
+    for (int i = 0; i < 1600; ++i)
+        discs.push_back(
+            {2.0 * r * (1.0 - pressed) * (i % 40), 2.0 * r * (1.0 - pressed) * (i / 40), r});
+    State state = make_state(discs);
+    find_contacts(state, base);
+    const std::vector<Past> past{remember(setting, base, state, {})};
+    const double grown = (1.0 - pressed + share) / (1.0 - pressed);
+    const DiscColumns c = disc_columns(state);
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+        c.x[i] *= grown;
+        c.y[i] *= grown;
+    }
+    state.clock.travel.m = state.clock.extension.m = 1e3;
+    const auto measured = [&] {
+        const NamedNumbers found = measure_dilation(RunSoFar(setting, base, state, past));
+        return std::map<std::string, double>(found.begin(), found.end());
+    };
+    const auto sound = measured();
+    EXPECT_NEAR(sound.at("elastic_area_m2") / sound.at("rock_dilation_m2"), 1.0, 0.02);
+    EXPECT_NEAR(sound.at("elastic_area_fraction"), sound.at("elastic_area_m2") / (1e3 * 15e3),
+                1e-12);
+    for (std::size_t i = 0; i < c.x.size() / 2; ++i)
+        c.material[i] = weak;
+    const auto half_weak = measured();
+    EXPECT_NEAR(half_weak.at("elastic_area_m2") / sound.at("elastic_area_m2"), 0.5, 0.02);
+    EXPECT_EQ(half_weak.at("rock_dilation_m2"), sound.at("rock_dilation_m2"));
+}
+
+TEST(StillGround, RisesByWhatTheDiscsThereDo) {
+    RigidBase base;
+    base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
+    Setting setting;
+    setting.length = 40e3;
+    setting.thickness = 15e3;
+    setting.has_detachment = true;
+    State state = make_state(row(200, 100.0)); // to 40 km
+    const DiscColumns c = disc_columns(state);
+    for (std::size_t i = 0; i < c.x.size(); ++i)
+        c.y[i] += c.start_x[i] > 36e3 ? -70.0 : 500.0;
+    state.clock.travel.m = state.clock.extension.m = 1e3;
+    EXPECT_NEAR(measure(setting, state, base, {}).still_ground.value(), -70.0, 1e-9);
+    setting.has_detachment = false; // all of a box moves
+    EXPECT_FALSE(measure(setting, state, base, {}).still_ground);
 }
 
 /// Collapse grabens beyond a basin at 5 km: one of them is there alone, then both. They have moved

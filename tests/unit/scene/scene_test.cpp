@@ -286,6 +286,28 @@ TEST_F(SceneTest, SetChangesOneParameterAndKeepsTheOthers) {
     EXPECT_EQ(scene.seed, 3u);
 }
 
+TEST_F(SceneTest, SoftnessDividesStiffnessButOfWeakRock) {
+    const std::string rocks = minimal + "[sedimentation]\n[fault_weakening]\n";
+    const ModelParts stiff = make_parts(load(rocks));
+    const ModelParts soft = make_parts(load(rocks + "[cycle]\nsoftness = 4\n"));
+    for (const MaterialIndex m : {basement, sediment}) {
+        EXPECT_EQ(4.0 * soft.materials[m].normal_stiffness, stiff.materials[m].normal_stiffness);
+        EXPECT_EQ(4.0 * soft.materials[m].shear_stiffness, stiff.materials[m].shear_stiffness);
+        EXPECT_EQ(soft.materials[m].friction, stiff.materials[m].friction);
+    }
+    EXPECT_EQ(soft.materials[weak].normal_stiffness, stiff.materials[weak].normal_stiffness);
+    EXPECT_EQ(4.0 * soft.base.material.normal_stiffness, stiff.base.material.normal_stiffness);
+}
+
+TEST_F(SceneTest, DiscsThatOverlapTooMuchAreWarnedOf) {
+    const std::string heavy = minimal + "[gravity]\n[cycle]\nsoftness = ";
+    EXPECT_THAT(load(heavy + "2\n").warnings, testing::IsEmpty());
+    EXPECT_THAT(
+        load(heavy + "16\n").warnings,
+        ElementsAre(HasSubstr("cycle.softness = 16: discs overlap by 12.0 % of their radius at "
+                              "15 km depth; 2.6 keeps that below 2 %")));
+}
+
 TEST_F(SceneTest, TheLastSetWins) { EXPECT_EQ(load_with({"seed=3", "seed=4"}).seed, 4u); }
 
 TEST_F(SceneTest, SetSwitchesAnEffectOn) {

@@ -108,7 +108,7 @@ struct Slab {
                         members.push_back(k);
                 });
                 const double slip =
-                    std::abs(most_active_plane(s, members, {x, y}, circle, 12).slip);
+                    std::abs(most_active_plane(s, members, {x, y}, circle, plane_directions(12)).slip);
                 EXPECT_LE(slip, slip_bound(s, members, {x, y}) + 1e-9);
                 largest = std::max(largest, slip);
             }
