@@ -2,7 +2,7 @@
 
 #include "coupling/modes.hpp"
 #include "dem/base/trace.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/resources.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml/toml.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/genesis/packing.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/log.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 #include "fem/plate.hpp"

@@ -8,9 +8,9 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

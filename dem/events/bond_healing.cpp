@@ -1,9 +1,9 @@
 #include "dem/events/bond_healing.hpp"
 
-#include "dem/bond.hpp"
 #include "dem/columns.hpp"
+#include "dem/contacts/bond.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "dem/genesis/detachment.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

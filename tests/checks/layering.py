@@ -29,10 +29,10 @@ RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
 
 # Floors of dem, from the ground: a file sees those before its own. The nouns lie in dem itself, and
 # so does the roof, which drives all of it.
-FLOORS_OF_DEM = ("dem/threads", "dem", "dem/base", "dem/contacts", "dem/cycle", "dem/genesis",
+FLOORS_OF_DEM = ("dem/numbers", "dem/threads", "dem", "dem/base", "dem/contacts", "dem/cycle", "dem/genesis",
                  "dem/events", "dem/ranks", "dem/ranks/mpi", "roof of dem")
 ROOF_OF_DEM = {"dem/simulation", "dem/model"}
-MOST_IN_DEM = 35  # files
+MOST_IN_DEM = 30  # files
 # The cycle as it is specified, which is written to be read: alone in the world, on one page or two.
 SPECIFICATION = {"dem/cycle/plain_cycle.hpp", "dem/cycle/plain_cycle.cpp"}
 MOST_LINES = 250

@@ -11,7 +11,7 @@ import re
 from source_tree import is_cpp, main, room
 
 # {called: instead}
-OWN = {"hypot": "hypotenuse() of dem/hypotenuse.hpp"}
+OWN = {"hypot": "hypotenuse() of dem/numbers/hypotenuse.hpp"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 CALL = re.compile(rf"(?<![\w])({'|'.join(OWN)})[fl]?\s*\(")
 

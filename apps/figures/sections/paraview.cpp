@@ -12,8 +12,8 @@
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "fluid/columns.hpp"
 
 #include <fmt/format.h>

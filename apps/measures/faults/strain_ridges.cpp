@@ -1,7 +1,7 @@
 #include "apps/measures/faults/strain_ridges.hpp"
 
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "apps/measures/polyline.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

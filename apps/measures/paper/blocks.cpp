@@ -1,8 +1,8 @@
 #include "apps/measures/paper/blocks.hpp"
 
 #include "apps/measures/basin/kinematics.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "apps/measures/paper/kink.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "apps/measures/paper/lower_block.hpp"
 
 #include "dem/contacts/cells.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "apps/measures/paper/syncline.hpp"
 
 #include "apps/measures/rigid_motion.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

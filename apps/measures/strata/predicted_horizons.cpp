@@ -1,7 +1,7 @@
 #include "apps/measures/strata/predicted_horizons.hpp"
 
 #include "apps/measures/basin/kinematics.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

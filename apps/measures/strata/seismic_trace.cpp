@@ -1,6 +1,6 @@
 #include "apps/measures/strata/seismic_trace.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cassert>

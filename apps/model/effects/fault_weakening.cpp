@@ -5,7 +5,7 @@
 #include "apps/support/words/spelling.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/words/log.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/NonLinearOptimization>

@@ -8,7 +8,7 @@
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "apps/scene/svg/svg_text.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/studies/fit/listric_shape.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

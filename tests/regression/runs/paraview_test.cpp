@@ -6,7 +6,7 @@
 #include "apps/run/run.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 #include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 #include "tests/xml_files.hpp"

@@ -4,7 +4,7 @@
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/sweep/sweep_table.hpp"
 #include "apps/support/error.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "apps/scene/picks/fault_fit.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include "dem/events/compaction.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cmath>
 #include <cstdint>

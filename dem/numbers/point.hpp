@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 namespace listric::dem {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 #include "dem/state.hpp"
 
 #include <algorithm>
