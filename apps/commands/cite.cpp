@@ -104,7 +104,7 @@ Command add_cite(CLI::App& program) {
         add_call(program, {"Look",
                            "cite",
                            "print what a paper about a run should cite",
-                           "docs/citing.md",
+                           "docs/reference/citing.md",
                            {{{"cite out/lis1", "program and works behind the effects of a run"},
                              {"cite out/lis1 > run.bib", "BibTeX, after lines that it ignores"},
                              {"cite", "this program and the method"}}}});

@@ -187,7 +187,7 @@ Command add_diff(CLI::App& program) {
         add_call(program, {"Look",
                            "diff",
                            "show what differs between two runs or scenes",
-                           "docs/commands.md",
+                           "docs/reference/commands.md",
                            {{{"diff out/lis1 out/lis1-second", "parameters, program and results"},
                              {"diff lis1 my.toml", "parameters of two scenes"},
                              {"diff lis1 out/lis1", "parameters that a run's options changed"}}}});

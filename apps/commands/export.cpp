@@ -16,7 +16,7 @@ Command add_export(CLI::App& program) {
         {"Look",
          "export",
          "write lines or discs of a run for other programs",
-         "docs/export.md",
+         "docs/guides/export.md",
          {{{"export horizons out/lis1", "tops of all strata as CSV"},
            {"export faults out/lis1 --format geojson", "faults for a GIS"},
            {"export well out/lis1 --x 3.3km", "burial history of every stratum in a well"}}}});

@@ -80,7 +80,7 @@ Command add_figures(CLI::App& program) {
         add_call(program, {"Look",
                            "figures",
                            "draw the figures of a run",
-                           "docs/figures.md",
+                           "docs/guides/figures.md",
                            {{{"figures out/lis1 --format pdf,svg", "figures for print"},
                              {"figures out/lis1 --width 85mm --at 5km", "one for a column"},
                              {"figures out/lis1 --animation", "a film of all snapshots"}}}});

@@ -14,7 +14,7 @@ Command add_fit(CLI::App& program) {
         {"Many runs",
          "fit",
          "find the listric detachment below picked horizons",
-         "docs/fit.md",
+         "docs/guides/fit.md",
          {{{"fit picks.csv --predict-only", "kinematics alone, without a run"},
            {"fit picks.csv --jobs 2", "then drafts, two at a time"},
            {"fit picks.csv --scene my.toml", "rock, sediment and rate of your own scene"}}}});

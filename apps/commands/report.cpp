@@ -18,7 +18,7 @@ Command add_report(CLI::App& program) {
         add_call(program, {"Look",
                            "report",
                            "write one or two runs as a page for a browser",
-                           "docs/report.md",
+                           "docs/guides/report.md",
                            {{{"report out/lis1", "write out/lis1/report.html"},
                              {"report out/lis1 out/lis2", "two runs on one page"},
                              {"report out/lis1 --most-mb 5", "a smaller file, to send"}}}});

@@ -16,7 +16,7 @@ Command add_study(CLI::App& program) {
         add_call(program, {"Many runs",
                            "study",
                            "measure what accuracy costs",
-                           "docs/cost-of-accuracy.md",
+                           "docs/explain/cost-of-accuracy.md",
                            {{{"study resolution --seeds 5", "error against the size of discs"},
                              {"study speed --scene lis2", "error against the speed of the wall"},
                              {"study isostasy -o out/isostasy", "uplift against thickness"}}}});

@@ -30,7 +30,7 @@ Command add_sweep(CLI::App& program) {
         program, {"Many runs",
                   "sweep",
                   "make the runs of a plan and compare them",
-                  "docs/sweeps.md",
+                  "docs/guides/sweeps.md",
                   {{{"sweep plan.toml --jobs 2", "two runs at a time"},
                     {"sweep plan.toml --task 1/4", "the first of four parts, on a cluster"},
                     {"sweep plan.toml --merge a b c d", "the tables of the four parts"}}}});

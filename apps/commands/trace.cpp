@@ -43,7 +43,7 @@ Command add_trace(CLI::App& program) {
         add_call(program, {"Look",
                            "trace",
                            "find faults in displacements of any code or image",
-                           "docs/install.md",
+                           "docs/start/install.md",
                            {{{"trace points.csv", "faults as JSON"},
                              {"trace points.csv --least-strain 0.02", "longer faults"},
                              {"trace points.csv --certain-strain 0.1", "more faults"}}}});

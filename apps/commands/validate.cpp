@@ -52,7 +52,7 @@ Command add_validate(CLI::App& program) {
         program, {"Many runs",
                   "validate",
                   "run the published experiments and judge them",
-                  "docs/validation.md",
+                  "docs/explain/validation.md",
                   {{{"validate --accuracy draft --seeds 2", "two seeds at half the resolution"},
                     {"validate --only lis2 --seeds 51-56", "add these seeds to the record"},
                     {"validate --plan my-plan.toml", "your own runs and expectations"}}}});

@@ -241,7 +241,7 @@ Command add_view(CLI::App& program) {
         add_call(program, {"Look",
                            "view",
                            "open the report of a run, or cards of all runs",
-                           "docs/report.md",
+                           "docs/guides/report.md",
                            {{{"view out/lis1", "the report of a run, made if it is missing"},
                              {"view", "a page of cards of the runs in out"},
                              {"report out/lis1", "write the report again"}}}});

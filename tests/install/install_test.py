@@ -130,7 +130,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(said[-1].split()[-1], self.run_lis1("1km", "out/1km"))
 
     def test_examples_are_short_and_stand_in_the_documents(self):
-        page = (SOURCES / "docs/library.md").read_text()
+        page = (SOURCES / "docs/guides/library.md").read_text()
         programs = sorted((SOURCES / "examples").glob("*.cpp"))
         self.assertEqual(len(programs), 4)
         for program in programs:

@@ -118,7 +118,7 @@ class Exports(unittest.TestCase):
         with segyio.open(path, ignore_geometry=True) as file:
             self.assertLess(file.samples[0], -200.0)
             self.assertIn(f"FIRST SAMPLE AT {file.samples[0]:.0f} MS (BYTES 109-110) FROM THE DATUM", bytes(file.text[0]).decode())
-        # Two-way time from the original surface through the discs of a column, by the laws of docs/export.md: a mean over
+        # Two-way time from the original surface through the discs of a column, by the laws of docs/guides/export.md: a mean over
         # 2 km by 500 m of discs of 370 m, within 4 %. A kilometre of rock too much is 13 %.
         discs = self.table("discs")
         depth = discs.start_depth_m

@@ -287,7 +287,7 @@ Command add_completion(CLI::App& program) {
         program, {"Shell",
                   "completion",
                   "print a script with which a shell completes calls",
-                  "docs/editors.md",
+                  "docs/guides/editors.md",
                   {{{"completion bash > listric.bash", "a script to source in ~/.bashrc"},
                     {"completion zsh > _listric", "a file for a folder of zsh's fpath"},
                     {"completion fish > listric.fish", "a file for ~/.config/fish/completions"}}}});

@@ -13,7 +13,7 @@ namespace listric {
 /// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
 /// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
 /// holds those that are there of this moment and the ends of windows, with time in Myr;
-/// docs/paraview.md tells how to look at it.
+/// docs/guides/paraview.md tells how to look at it.
 /// @param names  of the run's moments
 /// @param extension_rate  m/a. Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
