@@ -1,8 +1,8 @@
-#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/calibration/calibration.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"
-#include "apps/laboratory/calibration_fit.hpp"
+#include "apps/laboratory/calibration/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/laboratory/own_request.hpp"
 #include "apps/support/error.hpp"

@@ -1,7 +1,7 @@
-#include "apps/laboratory/calibration_fit.hpp"
+#include "apps/laboratory/calibration/calibration_fit.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
-#include "apps/laboratory/gauss_newton.hpp"
+#include "apps/laboratory/calibration/gauss_newton.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/statistics.hpp"

@@ -1,4 +1,4 @@
-#include "apps/laboratory/calibration_targets.hpp"
+#include "apps/laboratory/calibration/calibration_targets.hpp"
 
 #include "apps/support/error.hpp"
 
