@@ -13,7 +13,7 @@ set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Pyth
 # Made by the program from its own options: here, since what is built may be for another machine.
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
 set(declarations ${PROJECT_BINARY_DIR}/declarations)
-set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")
+set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} LISTRIC_CALL=listric \"$<TARGET_FILE:listric>\"")
 install(CODE "
   foreach(shell bash zsh fish)
     execute_process(${own} completion \${shell} OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.\${shell}\"

@@ -94,7 +94,8 @@ class Installed(unittest.TestCase):
         self.assertTrue((share / "listric/records/validation.csv").is_file())
         for script in ("bash-completion/completions/listric", "zsh/site-functions/_listric",
                        "fish/vendor_completions.d/listric.fish"):
-            self.assertIn("lis1-elastic", (share / script).read_text())
+            self.assertIn("'listric' complete ", (share / script).read_text())
+        self.assertIn("lis1-elastic", self.program("complete", "run", "lis1-"))
         self.assertIn(".TH LISTRIC 1", (share / "man/man1/listric.1").read_text())
 
     def test_python_finds_the_package_and_the_package_the_program(self):
