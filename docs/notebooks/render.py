@@ -68,7 +68,7 @@ def save(png, path):
     from PIL import Image
     image = Image.open(io.BytesIO(png)).convert("RGB")
     image.thumbnail((1100, 1100), Image.LANCZOS)
-    image.save(path, quality=82, method=6)
+    image.save(path, quality=70, method=6)
 
 
 def render(name, program):

@@ -81,7 +81,7 @@ def main():
     picture = Path(sys.argv[2] if len(sys.argv) > 2 else animate.HERE / "scenes/lis1-mud-10km.webp")
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
-    Image.open(buffer).convert("RGB").save(picture, quality=80, method=6)
+    Image.open(buffer).convert("RGB").save(picture, quality=70, method=6)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ from selenium.webdriver.chrome.service import Service
 
 HERE = Path(__file__).resolve().parent
 WIDE, PAIR, NARROW = (1400, 760), (1400, 1157), (500, 757)
-MOST_BYTES = 150_000  # tests/checks/front_door.py
+MOST_BYTES = 150_000  # tests/checks/sizes.py
 LAST = 20  # moments are 500 m apart
 # name: runs, moment, colour, size, whether the longest fault is picked
 PICTURES = {
@@ -29,13 +29,10 @@ PICTURES = {
     "lis1-10km": (["lis1"], LAST, "strata", WIDE, True),
     "lis2-5km": (["lis2"], 10, "strata", WIDE, False),
     "lis2-10km": (["lis2"], LAST, "rock", WIDE, False),
-    "rfr-5km": (["rfr"], 10, "strata", WIDE, False),
     "rfr-10km": (["rfr"], LAST, "strata", WIDE, False),
-    "lis1-elastic-5km": (["lis1-elastic"], 10, "strata", WIDE, False),
     "lis1-elastic-10km": (["lis1-elastic"], LAST, "strata", WIDE, False),
     "pair-5km": (["lis1", "lis1-seed2"], 10, "total", PAIR, False),
     "pair-10km": (["lis1", "lis1-seed2"], LAST, "strata", PAIR, False),
-    "narrow-5km": (["lis1"], 10, "strata", NARROW, False),
     "narrow-10km": (["lis1"], LAST, "strata", NARROW, False),
 }
 PICK = """
