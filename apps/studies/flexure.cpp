@@ -2,7 +2,7 @@
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/provenance.hpp"
-#include "apps/figures/flexure_figure.hpp"
+#include "apps/figures/base_figure.hpp"
 #include "apps/figures/sections/paraview.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"

@@ -1,11 +1,13 @@
-#include "apps/archive/tables/traced_faults.hpp"
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/measures/faults/moved_points.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
+#include "apps/support/files/json_text.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <memory>
@@ -13,6 +15,29 @@
 namespace listric {
 
 namespace {
+
+/// Faults as objects of JSON, with those keys of summary.json's `faults` that are known without a
+/// run, and slip_m and throw_m of the displacement.
+std::string to_json(std::span<const measures::TracedFault> faults) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const measures::TracedFault& f : faults) {
+        measures::FaultReport alone;
+        measures::Fault& only = alone.faults.emplace_back();
+        only.trace = f.trace;
+        only.dip = f.dip;
+        only.normal = f.normal;
+        nlohmann::ordered_json points = nlohmann::ordered_json::array();
+        for (const dem::Point p : f.trace.points)
+            points.push_back({p.x, -p.y});
+        nlohmann::ordered_json fault = archive::fault_object({alone, 0}, archive::trace_fields());
+        fault[archive::field_slip] = f.slip;
+        fault[archive::field_throw] = f.throw_down;
+        fault[archive::field_width] = f.width;
+        fault[archive::field_points] = std::move(points);
+        list.push_back(std::move(fault));
+    }
+    return to_text(list, 2) + "\n";
+}
 
 /// Depth positive down in the file, y up in the program.
 measures::MovedPoints read_moved_points(const std::string& file) {
@@ -59,7 +84,7 @@ Command add_trace(CLI::App& program) {
                "shear strain that a fault has somewhere")
         ->check(CLI::Range(1e-6, 1e3).description(""));
     return {command, [request] {
-                std::cout << archive::to_json(
+                std::cout << to_json(
                     measures::trace_faults(read_moved_points(request->file), request->options));
                 return ExitCode::done;
             }};

@@ -6,6 +6,8 @@
 #include "fem/footwall.hpp"
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace listric {
 
@@ -26,5 +28,9 @@ void write_footwall(const std::filesystem::path& output, const fem::Footwall& fo
 
 /// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
 void copy_view(const std::filesystem::path& output);
+
+/// Content of a DataArray of format "binary" in a VTK XML file with header_type UInt64 and
+/// compressor vtkZLibDataCompressor: sizes, then the bytes, both in base64.
+std::string vtk_array(std::span<const unsigned char> bytes);
 
 } // namespace listric

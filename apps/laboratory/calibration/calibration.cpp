@@ -4,7 +4,7 @@
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/laboratory/calibration/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
-#include "apps/laboratory/own_request.hpp"
+#include "apps/laboratory/request.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/words/text.hpp"

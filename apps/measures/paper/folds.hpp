@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/run_so_far.hpp"
 #include "apps/support/measure.hpp"
 
@@ -8,6 +9,16 @@
 #include <span>
 
 namespace listric::measures {
+
+/// Basins and rollovers to both sides of the syncline above a ramp-flat-ramp.
+NamedNumbers measure_syncline(const RunSoFar& run, const RampFlatRamp& parts);
+
+std::span<const Quantity> syncline_quantities();
+
+/// How far the deformation lies in the hanging wall in the last window, beside early windows.
+NamedNumbers measure_hinge(const RunSoFar& run);
+
+std::span<const Quantity> hinge_quantities();
 
 /// How far strata lie lower on the floor of the main collapse graben than on its margins.
 struct Relief {

@@ -1,4 +1,4 @@
-#include "apps/laboratory/own_request.hpp"
+#include "apps/laboratory/request.hpp"
 
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/support/error.hpp"
