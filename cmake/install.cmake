@@ -8,12 +8,12 @@ install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT prog
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
 install(DIRECTORY apps/records DESTINATION ${share} COMPONENT program FILES_MATCHING PATTERN *.csv)
-# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
+# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/guides/python.md).
 set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
 # Made by the program from its own options: here, since what is built may be for another machine.
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
 set(declarations ${PROJECT_BINARY_DIR}/declarations)
-set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")
+set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} LISTRIC_CALL=listric \"$<TARGET_FILE:listric>\"")
 install(CODE "
   foreach(shell bash zsh fish)
     execute_process(${own} completion \${shell} OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.\${shell}\"
@@ -38,7 +38,7 @@ install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT pro
   FILES_MATCHING PATTERN *.py)
 install(DIRECTORY apps/figures/report apps/figures/draw DESTINATION ${share}/figures COMPONENT program)
 install(FILES apps/figures/vocabulary.json DESTINATION ${share}/figures COMPONENT program)
-install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
+install(FILES docs/reference/measures.md DESTINATION ${share} COMPONENT program)
 install(DIRECTORY apps/python/listric DESTINATION ${LISTRIC_PYTHON_FOLDER} COMPONENT program
   FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff

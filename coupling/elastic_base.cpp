@@ -2,9 +2,8 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
-#include "dem/damping.hpp"
 #include "dem/law.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,8 +2,8 @@
 
 #include "coupling/modes.hpp"
 #include "dem/base/trace.hpp"
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <array>

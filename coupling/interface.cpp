@@ -2,8 +2,8 @@
 
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <array>

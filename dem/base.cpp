@@ -1,7 +1,7 @@
 #include "dem/base.hpp"
 
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,7 @@
 
 #include "dem/material.hpp"
 #include "dem/motion.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "dem/cycle_physics.hpp"
 
 #include "dem/columns.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -51,6 +51,11 @@ struct NumericalFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// An event would leave no disc: no other time step helps.
+struct NothingLeft : NumericalFailure {
+    using NumericalFailure::NumericalFailure;
+};
+
 /// Largest stable time step times `safety`, s, of discs of mass `mass` (kg) with six contacts each:
 /// sqrt(2 m / (k (1 + damping))), k the greater of 3 (K + K_s), for translation, and 12 K_s, for
 /// rotation (inertia m r^2 / 2). The highest eigenvalue of a network of such contacts is at most

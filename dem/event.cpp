@@ -1,7 +1,7 @@
 #include "dem/event.hpp"
 
-#include "dem/round_off.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/round_off.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <bit>

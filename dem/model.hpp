@@ -6,8 +6,8 @@
 #include "dem/events/sedimentation.hpp"
 #include "dem/genesis/detachment.hpp"
 #include "dem/genesis/genesis.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/simulation.hpp"
-#include "dem/units.hpp"
 
 #include <cstdint>
 #include <functional>

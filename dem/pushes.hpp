@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/columns.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 #include "dem/state.hpp"
 
 #include <span>

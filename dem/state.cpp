@@ -1,7 +1,7 @@
 #include "dem/state.hpp"
 
 #include "dem/columns.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

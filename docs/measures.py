@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the measures of docs/measures.md from apps/python/listric/dictionary.json, which the build makes. Between
+"""Writes the measures of docs/reference/measures.md from apps/python/listric/dictionary.json, which the build makes. Between
 `<!-- measures: TABLE ... -->` and `<!-- end -->` stand the measures of these tables, each with a heading
 and so an anchor; the rest of the page is by hand. Measures of validation have a page on the site alone
 (site_hooks.py).
@@ -10,7 +10,7 @@ import sys
 
 from parameters import ROOT, anchor, read_declared, sentence
 
-PAGE = ROOT / "docs/measures.md"
+PAGE = ROOT / "docs/reference/measures.md"
 OF_VALIDATION = ("snapshots",)  # tables
 DICTIONARY = ROOT / "apps/python/listric/dictionary.json"
 MARKED = re.compile(r"(<!-- measures: ([^>]*?) -->\n).*?(<!-- end -->\n)", re.DOTALL)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/parameters.md from the declarations in apps/*.schema.json, which the build makes. A heading, and so an
+"""Writes docs/reference/parameters.md from the declarations in apps/*.schema.json, which the build makes. A heading, and so an
 anchor, for every table and parameter.
 """
 
@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs/parameters.md"
+PAGE = ROOT / "docs/reference/parameters.md"
 SCHEMA = ROOT / "apps/scene.schema.json"
 PLAN = ROOT / "apps/flexure.schema.json"
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Writes docs/parameters.md and the measures of docs/measures.md from the program's own declarations. LISTRIC names another
+# Writes docs/reference/parameters.md and the measures of docs/reference/measures.md from the program's own declarations. LISTRIC names another
 # program than that of build/native.
 cd "$(dirname "$0")/.." || exit
 [[ $LISTRIC ]] || ./listric scenes >/dev/null || exit # builds it

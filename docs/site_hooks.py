@@ -48,7 +48,7 @@ console.log(JSON.stringify(formulas.map(([tex, displayMode]) =>
 
 DEMOS = "try"  # folder of the site
 CALL = re.compile(r"^  ([a-z]+)  ", re.MULTILINE)  # in the list of all calls
-DRAWING = "architecture.svg"
+DRAWING = "reference/architecture.svg"
 MADE = tempfile.TemporaryDirectory(prefix="listric-site-")  # pages of this build
 FILM = "pictures/lis1.webp"
 # Weights of pages in the search, by how their places begin: guides come before notes that they were written from.
@@ -114,7 +114,8 @@ def on_files(files, config):
         if Path(file.src_path).suffix in NOT_SERVED:
             files.remove(file)
     make_pages(Path(MADE.name))
-    for folder, names in ((ROOT, PAGES_OUTSIDE), (MADE.name, sorted(os.listdir(MADE.name)))):
+    made = sorted(path.relative_to(MADE.name).as_posix() for path in Path(MADE.name).rglob("*.*"))
+    for folder, names in ((ROOT, PAGES_OUTSIDE), (MADE.name, made)):
         for name in names:
             files.append(File(name, str(folder), config.site_dir, config.use_directory_urls))
     return files
@@ -131,6 +132,7 @@ def find_program():
 def make_pages(folder):
     """Help of all calls, measures of validation and the drawing of the rooms."""
     program = find_program()
+    Path(folder, "reference").mkdir(exist_ok=True)
 
     def ask(*words):
         return subprocess.run([program, *words], check=True, stdout=subprocess.PIPE, text=True,
@@ -138,10 +140,10 @@ def make_pages(folder):
 
     overview = ask("help")
     texts = {"listric": overview, **{call: ask("help", call) for call in CALL.findall(overview.partition("\nOptions\n")[0])}}
-    Path(folder, "calls.md").write_text(
+    Path(folder, "reference/calls.md").write_text(
         "# Help of all calls\n\nThe texts of `listric help CALL`; [commands](commands.md) shows what the calls are for.\n"
         + "".join(f"\n## {call}\n\n```\n{text}```\n" for call, text in texts.items()))
-    Path(folder, "validation-measures.md").write_text(measures.of_validation(json.loads(ask("schema", "--measures"))))
+    Path(folder, "reference/validation-measures.md").write_text(measures.of_validation(json.loads(ask("schema", "--measures"))))
     subprocess.run([sys.executable, "-B", ROOT / "tests/checks/architecture.py", Path(folder, DRAWING)], check=True)
 
 
@@ -173,8 +175,8 @@ def with_demos(markdown):
 def on_page_markdown(markdown, page, config, files):
     if page.file.src_path == "index.md":
         markdown = with_demos(markdown)
-    if page.file.src_path == "architecture.md":
-        markdown = markdown.replace("<!-- drawing -->", f"![Rooms and who includes whom]({DRAWING})")
+    if page.file.src_path == "reference/architecture.md":
+        markdown = markdown.replace("<!-- drawing -->", f"![Rooms and who includes whom]({Path(DRAWING).name})")
     return FORMULA.sub(mark_formula, relink(markdown, page.file))
 
 

@@ -1,6 +1,6 @@
 #include "fluid/pore_cells.hpp"
 
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>

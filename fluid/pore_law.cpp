@@ -1,5 +1,5 @@
 #include "fluid/pore_law.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>

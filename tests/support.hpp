@@ -4,9 +4,9 @@
 
 #include "dem/base.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/state.hpp"
-#include "dem/units.hpp"
 
 #include <cmath>
 #include <numeric>

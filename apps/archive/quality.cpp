@@ -173,7 +173,7 @@ void add_discs_per_fault(std::vector<QualityCheck>& all, const JsonObject& summa
 }
 
 void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
-    constexpr double least = 0.96, most = 1.12; // lis1 at standard (docs/measures.md)
+    constexpr double least = 0.96, most = 1.12; // lis1 at standard (docs/reference/measures.md)
     const auto ratio = number_at(summary, effects::sediment_stress_ratio);
     if (!ratio)
         return;
@@ -187,7 +187,7 @@ void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
 }
 
 void add_rest(std::vector<QualityCheck>& all, const JsonObject& summary) {
-    constexpr double most = 0.15; // of a window's strain (docs/inversion.md)
+    constexpr double most = 0.15; // of a window's strain (docs/guides/inversion.md)
     const auto windows = number_at(summary, effects::stage::rest_strain_windows);
     if (!windows)
         return;

@@ -9,7 +9,7 @@
 
 namespace listric::archive {
 
-// Bounds of a good run (docs/trust.md).
+// Bounds of a good run (docs/explain/trust.md).
 inline constexpr double most_mass_error = 1e-12, most_volume_error = 1e-3;
 inline constexpr double least_area_balance = 0.95, most_area_balance = 1.03;
 inline constexpr dem::Extension area_balance_from{5e3};
@@ -38,8 +38,8 @@ struct QualityContext {
     double mean_radius = 0.0; ///< m
 };
 
-/// Questions that a finished run's summary.json answers, in the order of docs/trust.md; none of an
-/// empty object.
+/// Questions that a finished run's summary.json answers, in the order of docs/explain/trust.md;
+/// none of an empty object.
 std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context);
 
 /// "good", "doubtful" or "note".

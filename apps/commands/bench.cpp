@@ -12,7 +12,7 @@ Command add_bench(CLI::App& program) {
         add_call(program, {"Shell",
                            "bench",
                            "measure the speed of the cycle on this machine",
-                           "docs/scaling.md",
+                           "docs/guides/scaling.md",
                            {{{"bench", "on one core"},
                              {"bench --discs 100000 --threads 2", "a larger packing on two cores"},
                              {"bench --plain", "the scalar cycle, for comparison"}}}});

@@ -1,6 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/calibration/calibration.hpp"
 
 #include <memory>
 
@@ -32,7 +32,7 @@ Command add_calibrate(CLI::App& program) {
         add_call(program, {"Rock",
                            "calibrate",
                            "find the microproperties of a wanted rock",
-                           "docs/laboratory.md",
+                           "docs/guides/laboratory.md",
                            {{{"calibrate --young 20e9 --name sandstone", "a softer rock"},
                              {"calibrate --byerlee --seeds 5", "strength after Byerlee's law"},
                              {"calibrate --name sandstone --resume", "continue after a stop"}}}});

@@ -9,7 +9,7 @@
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -169,7 +169,7 @@ Command add_check(CLI::App& program) {
         add_call(program, {"Run",
                            "check",
                            "check scenes, plans and materials",
-                           "docs/editors.md",
+                           "docs/guides/editors.md",
                            {{{"check my-scene.toml", "errors, with line and cure"},
                              {"check plan.toml", "a plan of a sweep or of a validation"},
                              {"check lis1 my-rock.toml", "several files at once"}}}});

@@ -51,6 +51,10 @@ Command add_manual(CLI::App& program);
 Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 
+/// Prints what a shell may offer in place of the last word of a call, a line each, for `listric
+/// complete WORDS`: a word, or with a tab its purpose. The line `/` stands for files.
+void print_offers(const CLI::App& program, std::vector<std::string> words);
+
 /// Refuses a call that there is none of, with the one that may be meant. Throws UsageError.
 void require_call(const CLI::App& program, const std::string& name);
 

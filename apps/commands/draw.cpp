@@ -75,7 +75,7 @@ Command add_draw(CLI::App& program) {
         program, {"Run",
                   "draw",
                   "write a page in which a section is drawn in a browser",
-                  "docs/drawing.md",
+                  "docs/start/drawing.md",
                   {{{"draw", "write lis1-drawing.html, which begins with lis1"},
                     {"draw my.toml --over section.png", "your own scene over a picture of it"},
                     {"draw rfr -o ramps.html", "two ramps to begin with"}}}});

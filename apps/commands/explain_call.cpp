@@ -47,7 +47,7 @@ Command add_explain(CLI::App& program) {
         add_call(program, {"Run",
                            "explain",
                            "print what a scene simulates and costs",
-                           "docs/choosing.md",
+                           "docs/guides/choosing.md",
                            {{{"explain lis1", "sizes, memory and expected time"},
                              {"explain lis1 --within 10min", "the best that this time buys"},
                              {"explain --parameters", "every parameter of a scene"}}}});

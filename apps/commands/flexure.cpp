@@ -16,7 +16,7 @@ Command add_flexure(CLI::App& program) {
         program, {"Run",
                   "flexure",
                   "bend the elastic base alone under a load, and compare with theory",
-                  "docs/elastic-base.md",
+                  "docs/explain/elastic-base.md",
                   {{{"flexure", "a line load on the plate of the shipped plan"},
                     {"flexure --set flexure.load=broken", "a load on the end of a broken plate"},
                     {"flexure my-plan.toml -o out/mine", "a plan of your own"}}}});

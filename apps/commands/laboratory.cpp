@@ -48,7 +48,7 @@ Command add_laboratory(CLI::App& program) {
         add_call(program, {"Rock",
                            "laboratory",
                            "test samples of a rock",
-                           "docs/laboratory.md",
+                           "docs/guides/laboratory.md",
                            {{{"laboratory uniaxial mat18-b", "Young's modulus, Poisson's ratio"},
                              {"laboratory biaxial mat18-b --seeds 3", "the strength envelope"},
                              {"laboratory shear-box mat18-w", "friction of a weakened zone"}}}});

@@ -41,7 +41,7 @@ Command add_new(CLI::App& program) {
         add_call(program, {"Run",
                            "new",
                            "write a commented scene to begin with",
-                           "docs/your-own-section.md",
+                           "docs/start/your-own-section.md",
                            {{{"new my.toml", "a scene with the parameters of lis1"},
                              {"new ramps.toml --from rfr", "a detachment with two ramps"},
                              {"new soft.toml --from my.toml", "a variant of your own scene"}}}});

@@ -94,6 +94,10 @@ ExitCode dispatch(int argc, char** argv) {
         std::cerr << app.help();
         return ExitCode::bad_call;
     }
+    if (std::string_view(argv[1]) == "complete") { // words of a call that is not yet whole
+        print_offers(app, {argv + 2, argv + argc});
+        return ExitCode::done;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

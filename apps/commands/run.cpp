@@ -223,7 +223,7 @@ Command add_run(CLI::App& program) {
         add_call(program, {"Run",
                            "run",
                            "run a scene",
-                           "docs/first-run.md",
+                           "docs/start/first-run.md",
                            {{{"run lis1 --accuracy draft", "a quick look at half the resolution"},
                              {"run lis1 --seed 2 -o out/second", "another random packing"},
                              {"run lis1 --resume", "continue a run that was stopped"}}}});

@@ -12,7 +12,7 @@ Command add_scenes(CLI::App& program) {
     CLI::App* command = add_call(program, {"Run",
                                            "scenes",
                                            "list the shipped scenes",
-                                           "docs/gallery.md",
+                                           "docs/start/gallery.md",
                                            {{{"scenes", "all scenes, a line each"},
                                              {"explain lis2", "processes and cost of one of them"},
                                              {"run lis2 --accuracy draft", "run one of them"}}}});

@@ -156,4 +156,11 @@ void draw_base(const RunFolder& run, const fs::path& tables, const fs::path& pic
                            {folder.string(), data.path.string(), figures.string(), order.text()});
 }
 
+void draw_flexure(const fs::path& output, const fs::path& pictures, const PictureOrder& order) {
+    std::error_code error;
+    fs::create_directories(pictures, error);
+    run_drawing_script("flexure.py", {fs::absolute(output).string(),
+                                      fs::absolute(pictures).string(), order.text()});
+}
+
 } // namespace listric

@@ -3,6 +3,8 @@
 #include "apps/archive/folder/run_folder.hpp"
 #include "apps/figures/picture_order.hpp"
 
+#include <filesystem>
+
 namespace listric {
 
 /// Writes base.csv, the displacement of the detachment at every snapshot of a run whose base moves,
@@ -11,5 +13,10 @@ namespace listric {
 /// StorageError if it cannot.
 void draw_base(const archive::RunFolder& run, const std::filesystem::path& tables,
                const std::filesystem::path& pictures, const PictureOrder& order);
+
+/// Draws figures/flexure from deflection.csv and summary.json. Throws what run_drawing_script()
+/// throws.
+void draw_flexure(const std::filesystem::path& output, const std::filesystem::path& pictures,
+                  const PictureOrder& order);
 
 } // namespace listric

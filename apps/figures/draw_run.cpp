@@ -10,7 +10,6 @@
 #include "apps/archive/reservations.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
-#include "apps/figures/flexure_figure.hpp"
 #include "apps/figures/sections/seismic_section.hpp"
 #include "apps/figures/well_figure.hpp"
 #include "apps/support/error.hpp"

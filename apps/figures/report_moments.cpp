@@ -13,14 +13,13 @@
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/measures/strata/rock.hpp"
 #include "apps/scene/parameters/stage.hpp"
-#include "apps/support/files/base64.hpp"
-#include "apps/support/files/deflate.hpp"
+#include "apps/support/files/encoding.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/fineness.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>

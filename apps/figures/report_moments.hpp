@@ -40,7 +40,7 @@ SectionLines section_lines(const Observation& now, const measures::FaultReport& 
                            bool followed, std::span<const fem::StressPatch> footwall = {});
 
 /// The moments of a run as the page of a report reads them: whole numbers by the discs' ids, as
-/// differences from the moment before; docs/report.md, "What is in the file".
+/// differences from the moment before; docs/guides/report.md, "What is in the file".
 class ReportMoments {
 public:
     explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}

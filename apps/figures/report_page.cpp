@@ -12,7 +12,7 @@
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/toml/differences.hpp"
-#include "apps/support/files/base64.hpp"
+#include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/files/picture.hpp"

@@ -8,8 +8,8 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml/toml.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -31,7 +31,7 @@ struct SlabFault {
     double born_at = 0.0; ///< extension at the end of the window in which it was first traced, m
 };
 
-/// Measures of a stretched slab (docs/measures.md).
+/// Measures of a stretched slab (docs/reference/measures.md).
 struct StretchedSlab {
     std::vector<SlabFault> faults;    ///< normal ones, each as it was when first traced
     std::vector<double> segment_dips; ///< of what AFD's measure circle found, degrees

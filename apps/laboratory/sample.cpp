@@ -3,8 +3,8 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/genesis/packing.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -168,6 +168,35 @@ Specimen make_sample(const SampleParameters& p, const Material& material, StopTo
                                std::to_string(p.stress) + " Pa");
     finish(s, p);
     return s;
+}
+
+void Specimen::steer(std::size_t surface, Point velocity) {
+    Surface& s = base.surfaces[surface];
+    place(s, moved(s.chain, {s.translation.x * time(), s.translation.y * time()}), velocity,
+          time());
+}
+
+void Specimen::reshape(std::size_t surface, const Chain& chain, Point velocity) {
+    place(base.surfaces[surface], chain, velocity, time());
+}
+
+Point Specimen::place_of(std::size_t surface) const {
+    const Surface& s = base.surfaces[surface];
+    const Point start = s.chain.front().start;
+    return {start.x + s.translation.x * time(), start.y + s.translation.y * time()};
+}
+
+void Specimen::advance(std::int64_t cycles) {
+    stop.check();
+    // Between searches the lists know surfaces by their present motion, traced back to the last
+    // search. Steered surfaces were elsewhere then, but no further than this.
+    surface_travel_ += greatest_translation(base) * static_cast<double>(cycles) *
+                       state.clock.time_step * base.motion.speed;
+    if (surface_travel_ > 0.1 * state.skin) {
+        find_surface_contacts(state, base);
+        surface_travel_ = 0.0;
+    }
+    dem::advance(state, base, physics, cycles, {1, cycle});
 }
 
 } // namespace listric

@@ -1,7 +1,7 @@
 #include "apps/laboratory/shear_box.hpp"
 
 #include "apps/laboratory/servo.hpp"
-#include "dem/bond.hpp"
+#include "dem/contacts/bond.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/law.hpp"

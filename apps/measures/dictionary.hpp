@@ -12,7 +12,7 @@
 
 namespace listric::measures {
 
-/// Measures of a moment that docs/measures.md shows in one table.
+/// Measures of a moment that docs/reference/measures.md shows in one table.
 struct MeasureTable {
     std::string_view name;
     std::span<const Measure<Measures>> measures;

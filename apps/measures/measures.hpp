@@ -15,7 +15,8 @@
 
 namespace listric::measures {
 
-/// The acceptance measures (docs/measures.md); those without meaning in a setting are absent.
+/// The acceptance measures (docs/reference/measures.md); those without meaning in a setting are
+/// absent.
 struct Measures {
     double basin_area = 0.0;             ///< m^2
     std::optional<double> area_balance;  ///< basin area over extension times thickness

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/elementary.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 namespace listric {
 
-/// A published work: what is known of it (docs/references.md); nothing is filled in.
+/// A published work: what is known of it (docs/reference/references.md); nothing is filled in.
 struct Work {
     std::string_view name;   ///< "Baldwin and Butler (1985)"
     std::string_view bibtex; ///< entry

@@ -9,7 +9,7 @@
 #include "apps/scene/toml/schema.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/files/base64.hpp"
+#include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/files/picture.hpp"

@@ -35,8 +35,8 @@ public:
     double extension() const;   ///< m
     std::uint64_t hash() const; ///< `state_hash` of summary.json
 
-    /// Measures of the present moment by the names of docs/measures.md: those of history.csv, and
-    /// those that the faults have in common.
+    /// Measures of the present moment by the names of docs/reference/measures.md: those of
+    /// history.csv, and those that the faults have in common.
     NamedNumbers measures();
 
     /// Active faults, followed back to their birth.

@@ -9,7 +9,7 @@
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/version.hpp"
 #include "dem/genesis/genesis.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>
 

@@ -19,7 +19,7 @@ struct Results {
 };
 
 /// A line each: head block, basin, depocentres, main faults, and whether the run is good by the
-/// bounds of docs/trust.md; where it is not a line for each reason.
+/// bounds of docs/explain/trust.md; where it is not a line for each reason.
 std::vector<std::string> result_lines(const Results& results);
 
 } // namespace listric

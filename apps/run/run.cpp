@@ -10,7 +10,7 @@
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/log.hpp"
-#include "dem/nothing_left.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>

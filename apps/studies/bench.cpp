@@ -7,7 +7,7 @@
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <filesystem>
 #include <string>

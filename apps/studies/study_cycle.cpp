@@ -8,10 +8,10 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

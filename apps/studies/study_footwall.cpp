@@ -4,7 +4,7 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 

@@ -13,7 +13,7 @@
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/words/log.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <cmath>
 

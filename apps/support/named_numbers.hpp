@@ -8,8 +8,8 @@
 
 namespace listric {
 
-/// Numbers by the names of docs/measures.md, in the order in which they are shown. What has no
-/// meaning is absent.
+/// Numbers by the names of docs/reference/measures.md, in the order in which they are shown. What
+/// has no meaning is absent.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// Adds a number if it has a meaning: if there is one, and it is finite.

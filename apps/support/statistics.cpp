@@ -1,5 +1,5 @@
 #include "apps/support/statistics.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 namespace listric {
 

@@ -3,7 +3,7 @@
 #include "dem/base.hpp"
 #include "dem/base/place.hpp"
 #include "dem/law.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "dem/base/place.hpp"
 
-#include "dem/hypotenuse.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/order_free.hpp"
 
 #include <algorithm>
 #include <cassert>

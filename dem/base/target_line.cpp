@@ -1,6 +1,6 @@
 #include "dem/base/target_line.hpp"
 
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>

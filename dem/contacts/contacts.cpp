@@ -4,8 +4,8 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/cycle_physics.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

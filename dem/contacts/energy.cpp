@@ -2,7 +2,7 @@
 
 #include "dem/base/contact.hpp"
 #include "dem/columns.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
 

@@ -1,12 +1,12 @@
 #include "dem/contacts/monitor.hpp"
 
 #include "dem/base/place.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/order_free.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/pushes.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <array>
 

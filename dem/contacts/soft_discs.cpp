@@ -3,7 +3,7 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/threads/team.hpp"
 

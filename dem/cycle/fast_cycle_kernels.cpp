@@ -1,6 +1,6 @@
 #include "dem/cycle/fast_cycle_kernels.hpp"
 
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,8 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/cycle/plain_account.hpp"
 #include "dem/cycle/plain_pair.hpp"
-#include "dem/damping.hpp"
 #include "dem/law.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
 

@@ -1,10 +1,10 @@
 #include "dem/events/bond_healing.hpp"
 
-#include "dem/bond.hpp"
 #include "dem/columns.hpp"
+#include "dem/contacts/bond.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

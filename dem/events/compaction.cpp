@@ -3,7 +3,7 @@
 #include "dem/base/ground_level.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>

@@ -6,13 +6,13 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/contacts/soft_discs.hpp"
-#include "dem/elementary.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/gradient.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/gradient.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/round_off.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

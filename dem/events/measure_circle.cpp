@@ -1,5 +1,5 @@
 #include "dem/events/measure_circle.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>

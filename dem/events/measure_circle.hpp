@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/point.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/point.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cstdint>
 #include <span>

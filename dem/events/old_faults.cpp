@@ -1,7 +1,7 @@
 #include "dem/events/old_faults.hpp"
 
 #include "dem/contacts/soft_discs.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/event.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <functional>
 #include <string>

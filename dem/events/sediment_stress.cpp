@@ -3,9 +3,9 @@
 #include "dem/base/rest.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/damping.hpp"
+#include "dem/law.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/pushes.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <array>

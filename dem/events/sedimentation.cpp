@@ -2,9 +2,9 @@
 
 #include "dem/base/ground.hpp"
 #include "dem/columns.hpp"
-#include "dem/nothing_left.hpp"
-#include "dem/random.hpp"
-#include "dem/units.hpp"
+#include "dem/cycle_physics.hpp"
+#include "dem/numbers/random.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
-#include "dem/gradient.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/gradient.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "dem/genesis/detachment.hpp"
 
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cassert>
 #include <cmath>

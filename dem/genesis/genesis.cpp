@@ -5,9 +5,9 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -153,6 +153,19 @@ void lay(State& state, const GenesisRequest& request) {
         if (!is_soft(request.materials, layer->material))
             d.material[i] = layer->material;
     }
+}
+
+/// Trims the packing to the ground, gives what is left its masses, and lets it come to rest.
+void level(State& state, const RigidBase& base, const GenesisRequest& request,
+           const CyclePhysics& physics, int crossing, std::string_view stage,
+           const Execution& execution,
+           const std::function<void(std::string_view, double)>& report) {
+    const HangingWallParameters& p = request.hanging_wall;
+    trim(state, p.length);
+    set_masses(state, p.rock_density, hanging_wall_area(p, request.base.surfaces.front().chain));
+    lay(state, request);
+    sort_discs(state);
+    settle_under_gravity(state, base, physics, crossing, stage, execution, report);
 }
 
 /// Breaks bonds where rock of the layers is not to have any.
@@ -337,21 +350,12 @@ State make_hanging_wall(const GenesisRequest& request,
     } else {
         release_pressure(state, closed, physics, execution, report);
     }
-    trim(state, p.length);
-    set_masses(state, p.rock_density, area);
-    lay(state, request);
-    sort_discs(state);
-    settle_under_gravity(state, open, physics, crossing, "second equilibrium", execution, report);
+    level(state, open, request, physics, crossing, "second equilibrium", execution, report);
     // Soft rock rises when the load above is cut off.
     constexpr double uneven = 0.25; // mean radii
     if (mean_top(state, p.length, std::numeric_limits<double>::infinity()).value_or(0.0) >
-        uneven * p.mean_radius) {
-        trim(state, p.length);
-        set_masses(state, p.rock_density, area);
-        lay(state, request);
-        sort_discs(state);
-        settle_under_gravity(state, open, physics, crossing, "levelling", execution, report);
-    }
+        uneven * p.mean_radius)
+        level(state, open, request, physics, crossing, "levelling", execution, report);
 
     soften(state, open, request, physics, crossing, execution, report);
 

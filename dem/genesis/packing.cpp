@@ -1,10 +1,10 @@
 #include "dem/genesis/packing.hpp"
 
-#include "dem/bond.hpp"
+#include "dem/contacts/bond.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "dem/ranks/halo_exchange.hpp"
 
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "dem/ranks/subdomain_update.hpp"
 
 #include <algorithm>

@@ -19,7 +19,7 @@ from nbclient import NotebookClient
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-PICTURES = HERE.parent / "pictures"
+PICTURES = HERE.parent / "pictures/notebooks"
 
 
 def executed(name, folder, program):
@@ -40,7 +40,7 @@ def shown(output, name, pictures):
     data = output.get("data", {})
     if "image/png" in data:
         pictures.append(base64.b64decode(data["image/png"]))
-        return f"![{name}, picture {len(pictures)}](../pictures/notebook-{name}-{len(pictures)}.webp)\n"
+        return f"![{name}, picture {len(pictures)}](../pictures/notebooks/{name}-{len(pictures)}.webp)\n"
     if "text/html" in data:
         html = re.sub(r"<style.*?</style>\s*", "", data["text/html"], flags=re.DOTALL)
         lines = re.sub(r"\n\s*", "\n", html).strip() + "\n"
@@ -68,7 +68,7 @@ def save(png, path):
     from PIL import Image
     image = Image.open(io.BytesIO(png)).convert("RGB")
     image.thumbnail((1100, 1100), Image.LANCZOS)
-    image.save(path, quality=82, method=6)
+    image.save(path, quality=70, method=6)
 
 
 def render(name, program):
@@ -77,7 +77,7 @@ def render(name, program):
     pictures = []
     (HERE / f"{name}.md").write_text(page(notebook, name, pictures), encoding="utf-8")
     for number, png in enumerate(pictures, start=1):
-        save(png, PICTURES / f"notebook-{name}-{number}.webp")
+        save(png, PICTURES / f"{name}-{number}.webp")
 
 
 if __name__ == "__main__":

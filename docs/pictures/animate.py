@@ -103,7 +103,7 @@ def main(folder, picture):
     snapshots = list(run.snapshots)
     deposits = int(np.max(snapshots[-1].discs["stratum"]))
     frames = [frame(Path(folder).name, snapshot, deposits) for snapshot in snapshots]
-    frames[0].save(picture, save_all=True, append_images=frames[1:], loop=0, quality=80, method=6,
+    frames[0].save(picture, save_all=True, append_images=frames[1:], loop=0, quality=65, method=6,
                    duration=[FRAME] * (len(frames) - 1) + [LAST_FRAME])
     print(f"{picture}: {len(frames)} frames, {Path(picture).stat().st_size / 1e6:.2f} MB")
 

@@ -33,7 +33,7 @@ def browser():
 
 def page_in(folder):
     """The tutorial's fault over its section."""
-    subprocess.run([sys.executable, HERE.parent / "your-own-section/draw.py", folder], check=True)
+    subprocess.run([sys.executable, HERE.parent / "start/your-own-section/draw.py", folder], check=True)
     page = Path(folder, "page.html")
     subprocess.run([os.environ.get("LISTRIC", "./listric"), "draw", Path(folder, "scene.toml"), "--over",
                     Path(folder, "section.png"), "--corners", "0,0,46000,12000", "--output", page], check=True)
@@ -55,7 +55,7 @@ def main():
             picture = Image.open(io.BytesIO(driver.get_screenshot_as_png())).convert("RGB")
         finally:
             driver.quit()
-    path = HERE / "drawing.webp"
+    path = HERE / "tools/drawing.webp"
     for quality in range(90, 40, -5):
         picture.save(path, quality=quality, method=6)
         if path.stat().st_size <= MOST_BYTES:

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Draws docs/pictures/mud-rates.webp: overpressure and undercompaction at the depocentre over Gibson's number, a mark a run, and what
+"""Draws docs/pictures/strata/mud-rates.webp: overpressure and undercompaction at the depocentre over Gibson's number, a mark a run, and what
 `explain` has for a column.
 
 Usage: PYTHONPATH=apps/python docs/pictures/mud_rates.py PROGRAM PICTURE.webp RUN [RUN ...]
 
-RUN is the folder of a finished run of lis1-mud, or SWEEP/runs/* of docs/cookbook/permeability-and-rate.toml. Prints the numbers as a table.
+RUN is the folder of a finished run of lis1-mud, or SWEEP/runs/* of docs/guides/cookbook/permeability-and-rate.toml. Prints the numbers as a table.
 """
 import re
 import subprocess

@@ -43,8 +43,8 @@ def bent_footwall(picture):
 
 
 def save(image, name):
-    path = animate.HERE / f"{name}.webp"
-    image.save(path, quality=82, method=6)
+    path = animate.HERE / f"scenes/{name}.webp"
+    image.save(path, quality=70, method=6)
     print(f"{path.name}: {path.stat().st_size / 1e3:.0f} kB")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docs/pictures/NAME-10km.webp of a run with pore fluid: overpressure and undercompaction in section with
+"""Draws docs/pictures/scenes/NAME-10km.webp of a run with pore fluid: overpressure and undercompaction in section with
 faults, and pressure, porosity and mud weight at the depocentre.
 
 Usage: PYTHONPATH=apps/python docs/pictures/pore_fluid.py RUN [PICTURE.webp]
@@ -78,10 +78,10 @@ def main():
     second.set_xlabel("distance from the breakaway (km)")
     first.set_title(f"{run.scene.get('name', 'lis1-mud')}, {snapshot.extension_m / 1e3:.0f} km of extension", loc="left")
     curves([figure.add_subplot(grid[2, k]) for k in range(3)], run.summary["pressure_profile"])
-    picture = Path(sys.argv[2] if len(sys.argv) > 2 else animate.HERE / "lis1-mud-10km.webp")
+    picture = Path(sys.argv[2] if len(sys.argv) > 2 else animate.HERE / "scenes/lis1-mud-10km.webp")
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
-    Image.open(buffer).convert("RGB").save(picture, quality=80, method=6)
+    Image.open(buffer).convert("RGB").save(picture, quality=70, method=6)
 
 
 if __name__ == "__main__":

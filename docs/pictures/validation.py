@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docs/pictures/validation.webp: criteria of faulting by experiment, a square per seed.
+"""Draws docs/pictures/validation/validation.webp: criteria of faulting by experiment, a square per seed.
 
 Usage: docs/pictures/validation.py FOLDER [PICTURE.webp]
 
@@ -27,4 +27,4 @@ def main(folder, picture):
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2] if len(sys.argv) == 3 else HERE / "validation.webp")
+    main(sys.argv[1], sys.argv[2] if len(sys.argv) == 3 else HERE / "validation/validation.webp")

@@ -2,7 +2,7 @@
 """Cycles on threads and on ranks of this machine, and a model of more machines.
 
 Usage: tests/benchmark/scaling.py measure RADIUS_M...   appends to docs/benchmarks/scaling.csv
-       tests/benchmark/scaling.py model                 prints the table of docs/scaling.md
+       tests/benchmark/scaling.py model                 prints the table of docs/guides/scaling.md
 
 Needs a build with tests and MPI: ./listric test -N, whose preset LISTRIC_PRESET names as ever.
 Packings of lis1 before extension; one thread, two threads and two ranks take turns, so that a
@@ -50,7 +50,7 @@ def measure(radii):
             for (ranks, threads), found in runs.items()])
 
 
-# Measured on two cores (docs/scaling.md); what a network adds is assumed.
+# Measured on two cores (docs/guides/scaling.md); what a network adds is assumed.
 DISC = ((2e4, 10.2e-9), (2e5, 10.9e-9), (1e6, 11.5e-9))  # s per disc-step of one core, by discs
 GHOST = 20e-9      # s per ghost and cycle: its motion, its contacts, packing
 EXCHANGE = 1.7e-6  # s per exchange by messages, behind the sweep

@@ -12,9 +12,9 @@ from source_tree import is_cpp, main, room
 
 # {called: instead}
 OWN = {
-    "hypot": "hypotenuse() of dem/hypotenuse.hpp",
+    "hypot": "hypotenuse() of dem/numbers/hypotenuse.hpp",
     **{
-        of_library: f"{own}() of dem/elementary.hpp"
+        of_library: f"{own}() of dem/numbers/elementary.hpp"
         for of_library, own in {
             "sin": "sine",
             "cos": "cosine",
@@ -35,7 +35,7 @@ OWN = {
         }.items()
     },
     **{
-        name: "what dem/elementary.hpp has"
+        name: "what dem/numbers/elementary.hpp has"
         for name in ("sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "erf", "erfc", "lgamma", "tgamma")
     },
 }

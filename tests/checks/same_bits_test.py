@@ -10,7 +10,7 @@ class SameBits(unittest.TestCase):
 
     def test_a_call(self):
         self.assertEqual(self.found("int a;\ndouble b = std::hypot(x, y);\n"),
-                         ["dem/base.cpp:2: hypot: use hypotenuse() of dem/hypotenuse.hpp"])
+                         ["dem/base.cpp:2: hypot: use hypotenuse() of dem/numbers/hypotenuse.hpp"])
         for text in ("return hypot(x, y);", "::hypot (x, y)", "hypotf(x, y)", "std::hypot(x,\n y)"):
             self.assertEqual(len(self.found(text, "apps/measures/paper/blocks.cpp")), 1, text)
 

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """How long files, functions and lines may be, in C++, Python and JavaScript, how much a unit may know that others
-would hand all their work to, and what README and a picture may weigh.
+would hand all their work to, how many files a folder may have, and what README and a picture may weigh.
 
     python3 tests/checks/sizes.py      prints what is longer
 """
 
 import ast
 import re
+import subprocess
 import sys
+from collections import Counter
+from pathlib import PurePosixPath
 
 from cpp_functions import functions
 from source_tree import CPP, PYTHON, ROOT, includes, is_cpp, is_ours, read_tree, report, unit
@@ -16,6 +19,7 @@ LONGEST_FILE = 600      # lines
 LONGEST_FUNCTION = 80   # lines, from the first word of its declaration to its last brace
 LONGEST_LINE = 120      # characters, of Python and JavaScript; clang-format keeps C++ to 100
 MOST_LONGER = {".py": 44, ".js": 290}  # lines that are longer all the same: fewer is welcome
+MOST_FILES = 30         # of a folder, without its folders
 MOST_WORDS = 900        # of README.md
 MOST_BYTES = 150_000    # of a picture of the documents
 FILM = "docs/pictures/lis1.webp"
@@ -66,6 +70,12 @@ def documents_too_large(words, pictures):
             yield f"{path}: {size} bytes, allowed: {MOST_BYTES}"
 
 
+def folders_too_full(paths):
+    for folder, count in Counter(PurePosixPath(path).parent.as_posix() for path in paths).items():
+        if count > MOST_FILES:
+            yield f"{folder}: {count} files, allowed: {MOST_FILES}; folders below it can have more"
+
+
 def units_too_large(tree):
     """Small units over their limits."""
     for name, (most_lines, most_headers) in SMALL_UNITS.items():
@@ -110,10 +120,18 @@ def read_sources():
 
 
 def read_documents():
-    pictures = (file for folder in ("pictures", "report") for file in sorted((ROOT / "docs" / folder).glob("*.[wpgs]*")))
+    pictures = (file for file in sorted((ROOT / "docs").rglob("*"))
+                if file.suffix in (".webp", ".png", ".gif", ".svg"))
     return (len((ROOT / "README.md").read_text(encoding="utf-8").split()),
             {file.relative_to(ROOT).as_posix(): file.stat().st_size for file in pictures})
 
 
+def tracked():
+    """Paths of all files that git has, and of new ones; none where there is no git."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return sorted({path for path in listed.stdout.split("\0") if path and (ROOT / path).exists()})
+
+
 if __name__ == "__main__":
-    sys.exit(report([*violations(read_sources()), *documents_too_large(*read_documents())]))
+    sys.exit(report([*violations(read_sources()), *folders_too_full(tracked()), *documents_too_large(*read_documents())]))

@@ -1,8 +1,8 @@
 import unittest
 
 from cpp_functions import functions
-from sizes import (EXCEPTIONS, FILM, SMALL_UNITS, documents_too_large, read_documents, read_sources,
-                   violations)
+from sizes import (EXCEPTIONS, FILM, SMALL_UNITS, documents_too_large, folders_too_full, read_documents, read_sources,
+                   tracked, violations)
 from source_tree import read_tree, unit
 
 
@@ -80,6 +80,12 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(found, ["README.md: 901 words, allowed: 900",
                                  "docs/pictures/a.webp: 150001 bytes, allowed: 150000"])
 
+    def test_a_full_folder(self):
+        shelf = [f"dem/noun_{k}.hpp" for k in range(30)]
+        self.assertEqual(list(folders_too_full([*shelf, "dem/cycle/cycle.hpp"])), [])
+        self.assertEqual(list(folders_too_full([*shelf, "dem/another.hpp"])),
+                         ["dem: 31 files, allowed: 30; folders below it can have more"])
+
     def test_a_session_that_knows_every_trade(self):
         header, source = "apps/run/session.hpp", "apps/run/session.cpp"
         lines = "int step();\n"
@@ -127,6 +133,7 @@ class Sources(unittest.TestCase):
         words, pictures = read_documents()
         self.assertIn(FILM, pictures)
         self.assertEqual(list(documents_too_large(words, pictures)), [])
+        self.assertEqual(list(folders_too_full(tracked())), [])
 
     def test_small_units_are_there(self):
         self.assertLessEqual(SMALL_UNITS.keys(), {unit(path) for path in read_tree()})

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What other systems are told to install is what CMake asks for: packaging/environment.yml, Spack's recipe and
-the tables of docs/install.md. All who name a version name that of CMakeLists.txt.
+the tables of docs/start/install.md. All who name a version name that of CMakeLists.txt.
 
     python3 tests/checks/systems.py     prints what differs
 """
@@ -14,10 +14,10 @@ from source_tree import ROOT, report
 FILES = ("CMakeLists.txt", "apps/CMakeLists.txt", "coupling/CMakeLists.txt", "fluid/CMakeLists.txt", "cmake/parts/fem.cmake",
          "cmake/parts/ranks.cmake")
 ENVIRONMENT, RECIPE = "packaging/environment.yml", "packaging/spack/packages/listric/package.py"
-INSTALL = "docs/install.md"
+INSTALL = "docs/start/install.md"
 # Where the version stands besides CMakeLists.txt, and how.
 VERSIONS = (("CITATION.cff", r"^version: (\S+)$"), ("apps/python/pyproject.toml", r'^version = "(\S+)"$'),
-            ("docs/citing.md", r", version (\S+), "), ("docs/citing.md", r"  version = {(\S+)},"))
+            ("docs/reference/citing.md", r", version (\S+), "), ("docs/reference/citing.md", r"  version = {(\S+)},"))
 ASKED = re.compile(r"(?:find_package|pkg_search_module)\((\S+)")
 
 # What CMake asks for: packages of Debian, Fedora, conda-forge and Spack; None: there is none.

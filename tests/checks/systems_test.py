@@ -26,7 +26,7 @@ class PlantedViolations(unittest.TestCase):
 
     def test_a_version_of_its_own(self):
         self.assertEqual(len(self.found("CITATION.cff", "\nversion: ", "\nversion: 9")), 1)
-        self.assertEqual(len(self.found("docs/citing.md", "  version = {", "  release = {")), 1)
+        self.assertEqual(len(self.found("docs/reference/citing.md", "  version = {", "  release = {")), 1)
 
 
 class Packaging(unittest.TestCase):

@@ -94,7 +94,8 @@ class Installed(unittest.TestCase):
         self.assertTrue((share / "listric/records/validation.csv").is_file())
         for script in ("bash-completion/completions/listric", "zsh/site-functions/_listric",
                        "fish/vendor_completions.d/listric.fish"):
-            self.assertIn("lis1-elastic", (share / script).read_text())
+            self.assertIn("'listric' complete ", (share / script).read_text())
+        self.assertIn("lis1-elastic", self.program("complete", "run", "lis1-"))
         self.assertIn(".TH LISTRIC 1", (share / "man/man1/listric.1").read_text())
 
     def test_python_finds_the_package_and_the_package_the_program(self):
@@ -130,7 +131,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(said[-1].split()[-1], self.run_lis1("1km", "out/1km"))
 
     def test_examples_are_short_and_stand_in_the_documents(self):
-        page = (SOURCES / "docs/library.md").read_text()
+        page = (SOURCES / "docs/guides/library.md").read_text()
         programs = sorted((SOURCES / "examples").glob("*.cpp"))
         self.assertEqual(len(programs), 4)
         for program in programs:

@@ -79,7 +79,7 @@ class Completion(unittest.TestCase):
                  '. "$0"; words=("$@"); CURRENT=$#; _listric')
         for words in (("ru",), ("run", "lis1", "--accuracy", ""), ("run", "lis1", "--set", "hanging_wall.len"),
                       ("laboratory", "biaxial", "mat18-b", "--set", "bonds.shear"), ("sweep", "--jo"),
-                      ("help", "swe"), ("export", "hor")):
+                      ("help", "swe"), ("export", "hor"), ("run", "lis1", "--accuracy=dr")):
             offered = output("zsh", "-fc", stubs, script, "listric", *words, cwd=self.folder.name).splitlines()
             wanted = [word for word in self.completed(*words) if word]
             self.assertEqual([word for word in offered if word.startswith(words[-1]) and word not in ("", "FILES")],
@@ -92,7 +92,8 @@ class Completion(unittest.TestCase):
         script = Path(self.folder.name, "script.fish")
         script.write_text(output(PROGRAM, "completion", "fish"))
         for words in (("ru",), ("run", "lis1", "--accuracy", "d"), ("run", "lis1", "--set", "hanging_wall.len"),
-                      ("run", "lis"), ("sweep", "--jo"), ("help", "swe"), ("export", "hor")):
+                      ("run", "lis"), ("sweep", "--jo"), ("help", "swe"), ("export", "hor"),
+                      ("run", "lis1", "--accuracy=dr")):
             offered = output("fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", script,
                              " ".join(("listric", *words)), cwd=self.folder.name).splitlines()
             self.assertEqual(sorted(line.partition("\t")[0].replace("\\ ", " ") for line in offered),

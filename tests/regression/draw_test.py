@@ -23,7 +23,7 @@ import jsonschema
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
-from program import NO_FIGURES, PROGRAM, SOURCES
+from program import NO_FIGURES, SOURCES, listric
 from refused_scenes import refused_scenes
 from run_folder_test import BOX
 
@@ -31,10 +31,6 @@ CHAINS = os.environ.get("LISTRIC_CHAINS", "")
 SCENES = sorted((SOURCES / "apps/scenes").glob("*.toml"))
 SCHEMA = json.loads((SOURCES / "apps/scene.schema.json").read_text())
 MOST_BYTES = 400_000
-
-
-def listric(*words, **options):
-    return subprocess.run([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
 
 
 def picture_file(path, width=400, height=150):

@@ -18,7 +18,7 @@ import numpy as np
 import pandas
 import segyio
 from osgeo import ogr   # python3-gdal, of cmake/packages.sh: without it this fails, it is not skipped
-from program import NO_FIGURES, PROGRAM, SOURCES
+from program import NO_FIGURES, listric
 
 ogr.UseExceptions()
 
@@ -51,11 +51,6 @@ LEVEL = "original surface"
 PLACES = (10000.0, 12500.0, 15000.0, 17500.0)   # where the detachment is flat
 
 
-def listric(*words, **settings):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=SOURCES, env={**os.environ, **settings}, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True)
-
-
 class Exports(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -65,7 +60,7 @@ class Exports(unittest.TestCase):
         (cls.folder / "inverted.toml").write_text(SCENE)
         cls.run_folder = cls.folder / "run"
         ended = listric("run", cls.folder / "inverted.toml", "--accuracy", "draft", "--seed", "1", "--threads", "1", "--no-report",
-                        "--quiet", "--output", cls.run_folder, **NO_FIGURES)
+                        "--quiet", "--output", cls.run_folder, env=os.environ | NO_FIGURES)
         assert ended.returncode == 0, ended.stdout
 
     def export(self, kind, *words):
@@ -118,7 +113,7 @@ class Exports(unittest.TestCase):
         with segyio.open(path, ignore_geometry=True) as file:
             self.assertLess(file.samples[0], -200.0)
             self.assertIn(f"FIRST SAMPLE AT {file.samples[0]:.0f} MS (BYTES 109-110) FROM THE DATUM", bytes(file.text[0]).decode())
-        # Two-way time from the original surface through the discs of a column, by the laws of docs/export.md: a mean over
+        # Two-way time from the original surface through the discs of a column, by the laws of docs/guides/export.md: a mean over
         # 2 km by 500 m of discs of 370 m, within 4 %. A kilometre of rock too much is 13 %.
         discs = self.table("discs")
         depth = discs.start_depth_m
@@ -203,7 +198,7 @@ class Exports(unittest.TestCase):
                 self.assertNotEqual(content[first], content[second], (first, second))
         # A new run in its place removes all of them.
         ended = listric("run", self.folder / "inverted.toml", "--accuracy", "draft", "--seed", "2", "--until", "10m", "--force", "--quiet",
-                        "--no-report", "--output", self.copy_of_run(), **NO_FIGURES)
+                        "--no-report", "--output", self.copy_of_run(), env=os.environ | NO_FIGURES)
         self.assertEqual(ended.returncode, 0, ended.stdout)
         self.assertEqual(os.listdir(self.folder / "copy/export") if (self.folder / "copy/export").is_dir() else [], [])
 

@@ -10,7 +10,7 @@ _MARK = b"listric checksum"
 
 
 def chained(value, word):
-    """As dem/hash.hpp."""
+    """As dem/numbers/hash.hpp."""
     value = (value ^ word) & 0xffffffffffffffff
     value = ((value << 29) | (value >> 35)) & 0xffffffffffffffff
     return (value * 0x9e3779b97f4a7c15) & 0xffffffffffffffff

@@ -117,8 +117,8 @@ class Launcher(unittest.TestCase):
             self.assertIn(f"\n    {self.root}/listric run lis1 --accuracy draft ", "".join(self.call(*words, code=0 if words else 2)))
         self.assertEqual(self.call(code=2)[0], "") # a script whose variable is empty reads nothing
         self.assertFalse((self.root / "build").exists())
-        (self.root / "docs").mkdir()
-        shutil.copy2(SOURCES / "docs/commands.md", self.root / "docs")
+        (self.root / "docs/reference").mkdir(parents=True)
+        shutil.copy2(SOURCES / "docs/reference/commands.md", self.root / "docs/reference")
         for words in ("nocall",), ("help", "rnu"), ("--verson",), ("rnu", "--help"):
             self.note("missing", "g++")
             self.assertIn("listric: no call", self.call(*words, code=2)[1])
@@ -443,7 +443,7 @@ class Launcher(unittest.TestCase):
         self.only_tools("cmake", "c++")
         _, said = self.call("scenes", code=2)
         self.assertIn("not found: cmake c++;", said)
-        self.assertIn("docs/install.md", said)
+        self.assertIn("docs/start/install.md", said)
         for name in ("cmake", "c++"):
             (self.place / "tools" / name).symlink_to(shutil.which(name))
         self.assertEqual(self.call("scenes")[0], "program: <scenes>")

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[2]
@@ -12,6 +13,12 @@ NO_FIGURES = {"LISTRIC_PYTHON": "/bin/false"}  # they take longer than small run
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
     if signal.getsignal(number) == signal.SIG_IGN:
         signal.signal(number, signal.SIG_DFL)
+
+
+def listric(*words, **options):
+    """A call, by itself from the sources' folder, and all that it says in one text."""
+    return subprocess.run([PROGRAM, *map(str, words)], **{"cwd": SOURCES, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT,
+                                                          "text": True, **options})
 
 
 def read_terminal(leader):

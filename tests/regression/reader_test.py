@@ -424,7 +424,7 @@ class Reader(unittest.TestCase):
             self.run_.at("90m")
 
     def test_the_documents_examples(self):
-        text = (SOURCES / "docs/python.md").read_text()
+        text = (SOURCES / "docs/guides/python.md").read_text()
         text = text.replace("out/lis1", str(self.folder / "run")).replace("5000.0", "400.0")
         names = {}
         for block in re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)[:2]:

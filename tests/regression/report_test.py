@@ -5,6 +5,7 @@
 
 import base64
 import csv
+import functools
 import io
 import json
 import os
@@ -24,6 +25,7 @@ from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
+import program
 from program import NO_FIGURES, PROGRAM, SOURCES
 from run_folder_test import BOX
 
@@ -35,12 +37,8 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_hex
 from vocabulary import VOCABULARY
 
+listric = functools.partial(program.listric, env=os.environ | NO_FIGURES)
 HOSTILE = "</script><img src=x onerror=alert(1)>"
-
-
-def listric(*words, **options):
-    return subprocess.run([PROGRAM, *words], cwd=SOURCES, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, **{"env": os.environ | NO_FIGURES, **options})
 
 
 def lightness(colour, seen_by):

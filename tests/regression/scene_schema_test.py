@@ -1,5 +1,5 @@
 """The schema of scenes and the program agree on what a scene is: on every scene that is shipped and
-on 300 that are spoilt at random. Where they do not, docs/editors.md says why.
+on 300 that are spoilt at random. Where they do not, docs/guides/editors.md says why.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest scene_schema_test
 """
@@ -21,7 +21,7 @@ from jsonschema import Draft4Validator
 from program import PROGRAM, SOURCES
 
 
-# What the program refuses and the schema cannot: what docs/editors.md says, and in which words the
+# What the program refuses and the schema cannot: what docs/guides/editors.md says, and in which words the
 # program tells it.
 BEYOND_A_SCHEMA = {
     "the chain of the detachment": r"reaches a depth of|does not join|starts and ends with a dip|"
@@ -351,7 +351,7 @@ class SceneSchema(unittest.TestCase):
         self.assertRegex(lines[4], r"correct: a validation of \d+ experiments, ")
 
     def test_documents_what_it_cannot_say(self):
-        text = (SOURCES / "docs/editors.md").read_text()
+        text = (SOURCES / "docs/guides/editors.md").read_text()
         for reason in BEYOND_A_SCHEMA:
             self.assertIn(f"| {reason} |", text)
 

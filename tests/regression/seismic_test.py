@@ -5,19 +5,13 @@
 
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 import segyio   # python3-segyio, of cmake/packages.sh: without it this fails, it is not skipped
-from program import PROGRAM, SOURCES
-
-
-def listric(*words, **settings):
-    return subprocess.run([PROGRAM, *words], cwd=SOURCES, env={**os.environ, **settings}, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True)
+from program import NO_FIGURES, listric
 
 
 class Seismic(unittest.TestCase):
@@ -27,7 +21,7 @@ class Seismic(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.run_folder = Path(folder.name) / "run"
         ended = listric("run", "lis1", "--accuracy", "draft", "--until", "1km", "--no-report", "--quiet",
-                        "--output", cls.run_folder, LISTRIC_PYTHON="/bin/false")   # no figures
+                        "--output", cls.run_folder, env=os.environ | NO_FIGURES)
         assert ended.returncode == 0, ended.stdout
 
     def export(self, *words):

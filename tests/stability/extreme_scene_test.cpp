@@ -8,6 +8,7 @@
 //   Without gravity nothing presses the rock on its base, which slips away below it.
 
 #include "apps/support/error.hpp"
+#include "tests/message_of.hpp"
 #include "tests/scene_runs.hpp"
 #include "tests/stability/hard_case.hpp"
 
@@ -85,12 +86,7 @@ protected:
 
     /// Why a scene is refused.
     std::string refusal(const std::string& text) const {
-        try {
-            load(text);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return support::message_of<SceneError>([&] { load(text); }, "");
     }
 
     State first, last;

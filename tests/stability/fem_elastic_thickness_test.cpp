@@ -7,6 +7,7 @@
 #include "apps/support/error.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/plate.hpp"
+#include "tests/message_of.hpp"
 #include "tests/verification/footwalls.hpp"
 
 #include <gmock/gmock.h>
@@ -81,12 +82,8 @@ TEST(ElasticThickness, TheThinPlateIsRightForTheThinOneOnly) {
 
 TEST(ElasticThickness, AboveTheBasesDepthIsRefused) {
     const auto refusal = [](const std::vector<std::string>& set) -> std::string {
-        try {
-            load_scene({.scene = "lis1-elastic", .set = set, .accuracy = "draft"});
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return support::message_of<SceneError>(
+            [&] { load_scene({.scene = "lis1-elastic", .set = set, .accuracy = "draft"}); }, "");
     };
     EXPECT_THAT(refusal({"elastic_base.elastic_thickness_m=77e3"}),
                 AllOf(HasSubstr("elastic_thickness_m"), HasSubstr("77000"), HasSubstr("30000"),

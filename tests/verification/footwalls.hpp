@@ -2,7 +2,7 @@
 
 // Footwalls that the tests of elastic bases start from.
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 #include "fem/footwall.hpp"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/version.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "apps/archive/folder/setting.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -60,8 +60,8 @@ struct HeadField {
 };
 std::span<const HeadField> head_fields();
 
-/// summary.json: names and units are part of the program's contract (docs/measures.md). Numbers
-/// that are not finite are left out.
+/// summary.json: names and units are part of the program's contract (docs/reference/measures.md).
+/// Numbers that are not finite are left out.
 std::string summary_json(const SummaryContent& content);
 
 /// Way of the run's clock in a cycle, m, by its summary.json: what a moment may miss a round number

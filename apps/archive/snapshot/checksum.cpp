@@ -1,7 +1,7 @@
 #include "apps/archive/snapshot/checksum.hpp"
 
 #include "apps/support/error.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -5,7 +5,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/version.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -16,7 +16,7 @@ namespace listric::archive {
 /// Data that a run carries along besides the state.
 struct RunRecord {
     std::string scene;  ///< the scene in force, as TOML
-    dem::Table history; ///< a row per window, see docs/measures.md; NaN: no meaning there
+    dem::Table history; ///< a row per window, see docs/reference/measures.md; NaN: no meaning there
     std::map<std::string, double> seconds_by_part; ///< wall time spent so far
     double disc_steps = 0.0;                       ///< discs times cycles so far
     double predicted_seconds = 0.0;                ///< of the whole run

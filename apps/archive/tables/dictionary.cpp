@@ -172,7 +172,7 @@ std::string objection_to_measure(const std::string& name, bool at_moment,
         return objection;
     if (const auto near = nearest(name, allowed))
         return fmt::format("is no measure, did you mean {}?", *near);
-    return "is no measure; docs/measures.md has all";
+    return "is no measure; docs/reference/measures.md has all";
 }
 
 } // namespace listric::archive

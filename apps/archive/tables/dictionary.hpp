@@ -14,7 +14,7 @@ namespace listric::archive {
 /// A quantity of a run's files, and who has it.
 struct DictionaryEntry {
     Quantity quantity;
-    std::string_view table;           ///< of docs/measures.md
+    std::string_view table;           ///< of docs/reference/measures.md
     const Effect* effect;             ///< whose it is; none: every run's
     bool at_end = true;               ///< in summary.json
     bool at_moments = true;           ///< measured at any snapshot, too

@@ -30,7 +30,7 @@ inline constexpr std::array exported_disc_columns{dem::columns::window_strain,
                                                   dem::columns::excess_pressure,
                                                   fluid::columns::overpressure_ratio};
 
-// Exports of docs/export.md, a table per kind. Points are rounded to a millimetre.
+// Exports of docs/guides/export.md, a table per kind. Points are rounded to a millimetre.
 
 /// Tops of the strata, cut at faults.
 LineTable horizons_table(const ExportedMoment& at);

@@ -12,11 +12,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 
-// Scripts for bash, zsh and fish, made from the declarations of calls and options.
+// What shells offer for the words of a call, from the declarations of calls and options, and the
+// scripts with which bash, zsh and fish ask for it.
 
 namespace listric {
 
@@ -35,30 +41,22 @@ Words scenes_and_plan() {
 }
 
 Words material_names() { return materials.names(); }
-Words shells() { return {"bash", "zsh", "fish"}; }
 
-Words test_names() {
-    const auto tests = laboratory_tests();
-    return {tests.begin(), tests.end()};
-}
-
-Words study_names() {
+Words names_in(const auto& things, auto name) {
     Words names;
-    for (const Study& study : studies())
-        names.emplace_back(study.name);
+    for (const auto& thing : things)
+        names.emplace_back(std::invoke(name, thing));
     return names;
 }
 
-Words kind_names() {
-    const auto kinds = export_kinds();
-    return {kinds.begin(), kinds.end()};
-}
+Words test_names() { return names_in(laboratory_tests(), std::identity{}); }
+Words study_names() { return names_in(studies(), &Study::name); }
+Words kind_names() { return names_in(export_kinds(), std::identity{}); }
+Words all_effect_names() { return names_in(program_effects(), &Effect::name); }
 
-Words all_effect_names() {
-    Words names;
-    for (const Effect* effect : program_effects())
-        names.emplace_back(effect->name);
-    return names;
+void add_keys(Words& words, const std::string& table, const auto& parameters) {
+    for (const auto& parameter : parameters)
+        words.push_back(fmt::format("{}.{}=", table, parameter.key));
 }
 
 /// "table.key=" of every parameter.
@@ -66,23 +64,18 @@ Words assignments() {
     Words words;
     for (const SceneTable& table : scene_tables(program_effects()))
         for (const auto* parameters : {&table.parameters, &table.source})
-            for (const Parameter& parameter : *parameters)
-                words.push_back(fmt::format("{}{}.{}=", table.name, table.is_array() ? ".0" : "",
-                                            parameter.key));
-    for (const Parameter& parameter : flexure_parameters())
-        words.push_back(fmt::format("flexure.{}=", parameter.key));
+            add_keys(words, fmt::format("{}{}", table.name, table.is_array() ? ".0" : ""),
+                     *parameters);
+    add_keys(words, "flexure", flexure_parameters());
     return words;
 }
 
 /// Assignments to a material.
 Words material_assignments() {
     Words words;
-    for (const Parameter& parameter : material_parameters<>())
-        words.push_back(fmt::format("material.{}=", parameter.key));
-    for (const Parameter& parameter : bond_parameters<>())
-        words.push_back(fmt::format("bonds.{}=", parameter.key));
-    for (const Parameter& parameter : pore_parameters())
-        words.push_back(fmt::format("pores.{}=", parameter.key));
+    add_keys(words, "material", material_parameters<>());
+    add_keys(words, "bonds", bond_parameters<>());
+    add_keys(words, "pores", pore_parameters());
     return words;
 }
 
@@ -95,10 +88,8 @@ Words call_names(const CLI::App& program) {
 
 /// Words after an option, or in an argument's place.
 struct Answer {
-    std::string words; ///< separated by blanks
+    Words words;
     bool files = false;
-
-    auto operator<=>(const Answer&) const = default;
 };
 
 /// Offers for a kind of value, if need be with its call. Of a kind that is not here any
@@ -121,99 +112,83 @@ const std::map<std::string, std::pair<Words (*)(), bool>> kinds{
 
 Answer answer_to(const CLI::App& call, const CLI::Option& option) {
     if (const Words choices = choices_of(option); !choices.empty())
-        return {fmt::format("{}", fmt::join(choices, " ")), false};
+        return {choices};
     const std::string kind = kind_of(option);
     if (kind == "CALL")
-        return {fmt::format("{}", fmt::join(call_names(*call.get_parent()), " ")), false};
+        return {call_names(*call.get_parent())};
     auto known = kinds.find(call.get_name() + " " + kind);
     if (known == kinds.end())
         known = kinds.find(kind);
-    if (known == kinds.end())
-        return {};
-    return {fmt::format("{}", fmt::join(known->second.first(), " ")), known->second.second};
+    return known == kinds.end() ? Answer{} : Answer{known->second.first(), known->second.second};
+}
+
+/// A word of the program with its purpose, as fish shows them.
+std::string described(const std::string& word, std::string purpose) {
+    return fmt::format("{}\t{}", word, purpose.substr(0, purpose.find('\n')));
 }
 
 Words options_of(const CLI::App& call) {
     Words words;
     for (const CLI::Option* option : call.get_options())
-        std::ranges::copy_if(names_of(*option), std::back_inserter(words),
-                             [](const std::string& name) { return name.starts_with("--"); });
+        for (const std::string& name : names_of(*option))
+            if (name.starts_with("--"))
+                words.push_back(described(name, option->get_description()));
     return words;
 }
 
-/// Words after the options of a call: patterns of the shell's case, by what they are answered
-/// with.
-void add_answers(const CLI::App& call, std::map<Answer, Words>& patterns) {
-    for (const CLI::Option* option : call.get_options())
-        if (option->get_items_expected_max() > 0)
-            for (const std::string& name : names_of(*option))
-                patterns[answer_to(call, *option)].push_back(call.get_name() + "," + name);
+Answer first_words(const CLI::App& program) {
+    Words words;
+    for (const CLI::App* call : program.get_subcommands({}))
+        words.push_back(described(call->get_name(), call->get_description()));
+    std::ranges::copy(options_of(program), std::back_inserter(words));
+    return {words};
 }
 
-/// Words that the arguments of a call may be, together.
+/// What the option `name` of a call takes; none: it is no option that takes something.
+std::optional<Answer> value_of(const CLI::App& call, const std::string& name) {
+    for (const CLI::Option* option : call.get_options())
+        if (option->get_items_expected_max() > 0 && std::ranges::count(names_of(*option), name) > 0)
+            return answer_to(call, *option);
+    return {};
+}
+
+/// What the arguments of a call may be, together.
 Answer arguments_of(const CLI::App& call) {
     Answer all;
     for (const CLI::Option* option : call.get_options()) {
         if (!option->get_positional())
             continue;
         const Answer one = answer_to(call, *option);
-        all.words += (all.words.empty() ? "" : " ") + one.words;
+        std::ranges::copy(one.words, std::back_inserter(all.words));
         all.files |= one.files;
     }
     return all;
 }
 
-std::string assignment_of(const Answer& answer) {
-    std::string text;
-    if (!answer.words.empty())
-        text += fmt::format(" offers=\"{}\"", answer.words);
-    if (answer.files)
-        text += " files=yes";
-    return text;
+/// What may stand in place of the last word, behind the others.
+Answer answer(const CLI::App& program, std::span<const std::string> words) {
+    if (words.size() < 2)
+        return first_words(program);
+    const auto calls = program.get_subcommands(
+        [&](const CLI::App* call) { return call->get_name() == words.front(); });
+    if (calls.empty())
+        return {};
+    const CLI::App* call = calls.front();
+    if (auto value = value_of(*call, words[words.size() - 2]))
+        return *value;
+    return words.back().starts_with("-") ? Answer{options_of(*call)} : arguments_of(*call);
 }
 
-/// For bash and zsh: `offers` and `files` by `call`, the word `before` and the `word` itself.
-std::string cases(const CLI::App& program) {
-    std::map<Answer, Words> patterns;
-    std::string arguments;
-    for (const CLI::App* call : program.get_subcommands({})) {
-        const std::string& name = call->get_name();
-        add_answers(*call, patterns);
-        arguments +=
-            fmt::format("        {0},-*) offers=\"{1}\" ;;\n        {0},*){2} ;;\n", name,
-                        fmt::join(options_of(*call), " "), assignment_of(arguments_of(*call)));
-    }
-    std::string answers;
-    for (const auto& [answer, of] : patterns)
-        answers += fmt::format("    {}){} ;;\n", fmt::join(of, " | "), assignment_of(answer));
-    return fmt::format(R"(    case $call,$before in
-    ,) offers="{} {}" ;;
-{}    *)
-        case $call,$word in
-{}        esac
-        ;;
-    esac
-)",
-                       fmt::join(call_names(program), " "), fmt::join(options_of(program), " "),
-                       answers, arguments);
-}
-
-std::string bash_script(const CLI::App& program) {
-    return R"(# Completion of listric in bash, made by `listric completion bash`.
+/// Scripts, with the program's name in place of PROGRAM.
+constexpr std::string_view bash_script =
+    R"(# Completion of listric in bash, made by `listric completion bash`.
 _listric() {
-    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
-    local call=${COMP_WORDS[1]} offers= files=
-    # bash takes --option=value apart.
-    if [[ $word == "=" ]]; then
-        word=
-    elif [[ $before == "=" ]]; then
-        before=${COMP_WORDS[COMP_CWORD - 2]}
-    fi
-    ((COMP_CWORD == 1)) && call= before=
-)" + cases(program) +
-           R"(    mapfile -t COMPREPLY < <(compgen -W "$offers" -- "$word")
-    if [[ $files ]]; then
-        mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- "$word")
+    local word=${COMP_WORDS[COMP_CWORD]}
+    mapfile -t COMPREPLY < <(PROGRAM complete "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+    COMPREPLY=("${COMPREPLY[@]%%$'\t'*}")
+    if [[ ${COMPREPLY[0]-} == / ]]; then
+        COMPREPLY=("${COMPREPLY[@]:1}")
+        mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- "${word#=}")
         compopt -o filenames 2>/dev/null
     fi
     [[ ${COMPREPLY[*]} == *= ]] && compopt -o nospace 2>/dev/null
@@ -221,84 +196,92 @@ _listric() {
 }
 complete -F _listric listric
 )";
-}
 
-std::string zsh_script(const CLI::App& program) {
-    return R"(#compdef listric
+constexpr std::string_view zsh_script =
+    R"(#compdef listric
 # Completion of listric in zsh, made by `listric completion zsh`.
 _listric() {
-    local word=${words[CURRENT]} before=${words[CURRENT-1]} call=${words[2]} offers= files=
-    if [[ $word == --*=* ]]; then
-        before=${word%%=*}
-        compset -P '*='
-    fi
-    ((CURRENT == 2)) && call= before=
-)" + cases(program) +
-           R"(    local -a list=(${=offers})
-    compadd -S '' -- ${(M)list:#*=}
-    compadd -- ${list:#*=}
-    [[ -n $files ]] && _files
+    local -a offers=("${(@f)$(PROGRAM complete "${(@)words[2,CURRENT]}" 2>/dev/null)}")
+    offers=(${offers%%$'\t'*})
+    compadd -S '' -- ${(M)offers:#*=}
+    compadd -- ${${offers:#*=}:#/}
+    [[ $offers[1] == / ]] && { compset -P '--*='; _files }
     return 0
 }
 # In a folder of fpath this is the function itself; sourced, it is registered.
 if [[ $funcstack[1] == _listric ]]; then _listric "$@"; else compdef _listric listric; fi
 )";
-}
 
-/// A text between quotes of fish, its first line.
-std::string fish_quoted(std::string text) {
-    text = text.substr(0, text.find('\n'));
-    for (std::size_t at = 0; (at = text.find('\'', at)) != text.npos; at += 2)
-        text.insert(at, 1, '\\');
-    return fmt::format("'{}'", text);
-}
+constexpr std::string_view fish_script =
+    R"(# Completion of listric in fish, made by `listric completion fish`.
+function _listric_offers
+    set -l word (commandline -ct)
+    set -l before (commandline -opc)
+    set -l offers (PROGRAM complete $before[2..] "$word" 2>/dev/null)
+    if test "$offers[1]" = /
+        set -e offers[1]
+        __fish_complete_path "$word"
+    end
+    string join \n -- $offers
+end
+complete -c listric -f -a '(_listric_offers)'
+)";
 
-std::string fish_script(const CLI::App& program) {
-    std::string text = "# Completion of listric in fish, made by `listric completion fish`.\n"
-                       "complete -c listric -f\n";
-    const auto line = [&](const std::string& when, const std::string& what, const Answer& answer,
-                          const std::string& doc) {
-        text += fmt::format(
-            "complete -c listric -n '{}'{}{}{} -d {}\n", when, what, answer.files ? " -F" : "",
-            answer.words.empty() ? "" : " -a " + fish_quoted(answer.words), fish_quoted(doc));
-    };
-    for (const CLI::App* call : program.get_subcommands({})) {
-        line("test (count (commandline -opc)) -eq 1", "", {call->get_name()},
-             call->get_description());
-        const std::string inside =
-            fmt::format("string match -q {} -- (commandline -opc)[2]", call->get_name());
-        for (const CLI::Option* option : call->get_options()) {
-            std::string names;
-            for (const std::string& name : names_of(*option))
-                names += (name.starts_with("--") ? " -l " : " -s ") +
-                         name.substr(name.find_first_not_of('-'));
-            if (option->get_items_expected_max() > 0 && !names.empty())
-                names += " -r";
-            line(inside, names, answer_to(*call, *option), option->get_description());
-        }
-    }
-    return text;
+/// How a script calls the program, between quotes of all three shells: by the name of an
+/// installation, else by its place.
+std::string own_call() {
+    const char* name = std::getenv("LISTRIC_CALL");
+    std::string call = name && std::string_view(name) == "listric"
+                           ? name
+                           : std::filesystem::read_symlink("/proc/self/exe").string();
+    for (std::size_t at = 0; (at = call.find('\'', at)) != call.npos; at += 4)
+        call.replace(at, 1, "'\\''");
+    return fmt::format("'{}'", call);
 }
 
 } // namespace
+
+void print_offers(const CLI::App& program, std::vector<std::string> words) {
+    // bash takes --option=value apart, others leave it together.
+    std::string start;
+    if (words.empty())
+        words.emplace_back();
+    if (words.back() == "=")
+        words.back().clear();
+    else if (const auto sign = words.back().find('=');
+             words.back().starts_with("--") && sign != std::string::npos) {
+        start = words.back().substr(0, sign + 1);
+        words.push_back(words.back().substr(sign + 1));
+        words[words.size() - 2].resize(sign);
+    }
+    std::erase(words, "=");
+    const Answer all = answer(program, words);
+    if (all.files)
+        std::cout << "/\n"; // files, too
+    for (const std::string& word : all.words)
+        if (word.starts_with(words.back()))
+            std::cout << start << word << '\n';
+}
 
 Command add_completion(CLI::App& program) {
     CLI::App* command = add_call(
         program, {"Shell",
                   "completion",
                   "print a script with which a shell completes calls",
-                  "docs/editors.md",
+                  "docs/guides/editors.md",
                   {{{"completion bash > listric.bash", "a script to source in ~/.bashrc"},
                     {"completion zsh > _listric", "a file for a folder of zsh's fpath"},
                     {"completion fish > listric.fish", "a file for ~/.config/fish/completions"}}}});
     const auto shell = std::make_shared<std::string>();
     command->add_option("SHELL", *shell, "bash, zsh or fish")
         ->required()
-        ->check(CLI::IsMember(shells()));
-    return {command, [&program, shell] {
-                std::cout << (*shell == "bash"  ? bash_script(program)
-                              : *shell == "zsh" ? zsh_script(program)
-                                                : fish_script(program));
+        ->check(CLI::IsMember(Words{"bash", "zsh", "fish"}));
+    return {command, [shell] {
+                const std::string_view script = *shell == "bash"  ? bash_script
+                                                : *shell == "zsh" ? zsh_script
+                                                                  : fish_script;
+                const auto place = script.find("PROGRAM");
+                std::cout << script.substr(0, place) << own_call() << script.substr(place + 7);
                 return ExitCode::done;
             }};
 }

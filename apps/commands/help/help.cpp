@@ -1,6 +1,6 @@
 #include "apps/commands/help/help.hpp"
 
-#include "apps/support/words/terminal.hpp"
+#include "apps/support/words/log.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@ Command add_help(CLI::App& program) {
     CLI::App* command = add_call(program, {"Shell",
                                            "help",
                                            "print arguments, options and examples of a call",
-                                           "docs/commands.md",
+                                           "docs/reference/commands.md",
                                            {{{"help", "all calls"},
                                              {"help run", "one call"},
                                              {"run --help", "one call, by its option"}}}});

@@ -76,7 +76,7 @@ Command add_manual(CLI::App& program) {
     CLI::App* command = add_call(program, {"Shell",
                                            "manual",
                                            "print the manual's page, for man",
-                                           "docs/commands.md",
+                                           "docs/reference/commands.md",
                                            {{{"manual > listric.1", "write the page"},
                                              {"manual | man -l -", "read the page"},
                                              {"manual | groff -man -Tpdf", "the page as PDF"}}}});

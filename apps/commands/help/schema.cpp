@@ -23,7 +23,7 @@ Command add_schema(CLI::App& program) {
         add_call(program, {"Shell",
                            "schema",
                            "print the JSON schema of scenes, for editors",
-                           "docs/editors.md",
+                           "docs/guides/editors.md",
                            {{{"schema > scene.schema.json", "for an editor of scenes"},
                              {"schema --material", "the schema of material files"},
                              {"schema --measures", "names, units and definitions of measures"}}}});

@@ -1,6 +1,6 @@
 """Start of every script: libraries that the caller's settings do not change, errors of one line.
 
-Exit statuses are the program's own (docs/exit-codes.md), and one that says that a library is not there.
+Exit statuses are the program's own (docs/reference/exit-codes.md), and one that says that a library is not there.
 """
 import contextlib
 import importlib

@@ -1,19 +1,19 @@
 #include "apps/figures/sections/paraview.hpp"
 
 #include "apps/archive/tables/exports.hpp"
-#include "apps/figures/sections/vtk_array.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/measures/strata/cohesion.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "fluid/columns.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +31,18 @@
 #include <vector>
 
 namespace listric {
+
+std::string vtk_array(std::span<const unsigned char> bytes) {
+    constexpr int level = 4; // 6 saves 0.4 % and takes more than twice as long, 1 is 1.7 % larger
+    const std::vector<unsigned char> packed = deflated(bytes, level);
+    // Number of blocks, bytes of each, bytes of a smaller last one, packed bytes of each.
+    std::vector<std::uint64_t> header{1, bytes.size(), 0, packed.size()};
+    if (bytes.empty())
+        header = {0, 0, 0};
+    const std::string head =
+        base64({reinterpret_cast<const unsigned char*>(header.data()), 8 * header.size()});
+    return bytes.empty() ? head : head + base64(packed);
+}
 
 using namespace dem;
 

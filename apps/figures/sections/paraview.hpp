@@ -6,6 +6,8 @@
 #include "fem/footwall.hpp"
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace listric {
 
@@ -13,7 +15,7 @@ namespace listric {
 /// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
 /// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
 /// holds those that are there of this moment and the ends of windows, with time in Myr;
-/// docs/paraview.md tells how to look at it.
+/// docs/guides/paraview.md tells how to look at it.
 /// @param names  of the run's moments
 /// @param extension_rate  m/a. Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
@@ -26,5 +28,9 @@ void write_footwall(const std::filesystem::path& output, const fem::Footwall& fo
 
 /// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
 void copy_view(const std::filesystem::path& output);
+
+/// Content of a DataArray of format "binary" in a VTK XML file with header_type UInt64 and
+/// compressor vtkZLibDataCompressor: sizes, then the bytes, both in base64.
+std::string vtk_array(std::span<const unsigned char> bytes);
 
 } // namespace listric

@@ -7,8 +7,8 @@
 #include "apps/measures/strata/rock.hpp"
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "apps/measures/basin/kinematics.hpp"
 
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <optional>
 #include <span>

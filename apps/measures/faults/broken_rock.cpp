@@ -2,7 +2,7 @@
 
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <algorithm>
 #include <cmath>

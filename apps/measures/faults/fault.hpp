@@ -21,7 +21,7 @@ struct TraceName {
     bool operator==(const TraceName&) const = default;
 };
 
-/// An active fault with its history (docs/measures.md defines the numbers).
+/// An active fault with its history (docs/reference/measures.md defines the numbers).
 struct Fault {
     FaultTrace trace;
     TraceName name;              ///< two lines of one name are parts of one fault

@@ -7,8 +7,8 @@
 #include "apps/support/statistics.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/cells.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

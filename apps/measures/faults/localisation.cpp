@@ -1,7 +1,7 @@
 #include "apps/measures/faults/localisation.hpp"
 
 #include "dem/columns.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cassert>

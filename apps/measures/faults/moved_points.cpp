@@ -3,7 +3,7 @@
 #include "apps/support/statistics.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 #include "apps/measures/faults/shear_field.hpp"
 
 #include "dem/contacts/cells.hpp"
-#include "dem/gradient.hpp"
+#include "dem/numbers/gradient.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <limits>

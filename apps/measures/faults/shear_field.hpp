@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 #include "dem/state.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "apps/measures/faults/strain_ridges.hpp"
 
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

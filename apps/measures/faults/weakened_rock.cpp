@@ -2,8 +2,8 @@
 
 #include "apps/measures/polyline.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

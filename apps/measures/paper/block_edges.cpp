@@ -3,7 +3,7 @@
 #include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/measures/split.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 #include "apps/measures/paper/kink.hpp"
 
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

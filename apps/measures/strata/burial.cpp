@@ -1,7 +1,7 @@
 #include "apps/measures/strata/burial.hpp"
 
 #include "apps/measures/strata/owner_map.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cassert>

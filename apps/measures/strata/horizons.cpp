@@ -2,7 +2,7 @@
 
 #include "apps/measures/strata/contour.hpp"
 #include "apps/measures/strata/owner_map.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "apps/measures/strata/predicted_horizons.hpp"
 
 #include "apps/measures/basin/kinematics.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

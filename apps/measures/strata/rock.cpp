@@ -7,8 +7,8 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 #include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/gradient.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/gradient.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/point.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
 
@@ -239,7 +239,7 @@ std::string explain_lacks(const Scene& scene, EffectList list) {
     std::string text =
         "  not in the model, with what each by itself does to the uplift of the breakaway\n"
         "  (lis1-elastic, 5 km of extension, Te 5 to 20 km; "
-        "docs/elastic-base.md#what-it-depends-on)\n";
+        "docs/explain/elastic-base.md#what-it-depends-on)\n";
     for (const Lack& lack : lacks)
         text += fmt::format("    {}: {}\n", lack.what, lack.size);
     return text;

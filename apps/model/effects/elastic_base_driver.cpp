@@ -14,9 +14,9 @@
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/hash.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/hash.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "apps/scene/parameters/stage.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "apps/support/words/spelling.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
 
@@ -137,7 +137,7 @@ SlowestMotion slowest_motion(const Scene& scene) {
 }
 
 /// A fault takes a share of the wall's way between two scans: where that must be more than a
-/// quarter, few are found (docs/choosing.md).
+/// quarter, few are found (docs/guides/choosing.md).
 std::string warning(const Scene& scene) {
     constexpr double least_ways = 4.0;
     const P& p = *scene.find<P>();

@@ -7,7 +7,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <fmt/format.h>
 

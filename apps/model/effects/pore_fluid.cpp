@@ -4,7 +4,7 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/round_off.hpp"
 #include "fluid/pore_column.hpp"
 
 #include "apps/model/effect_list.hpp"

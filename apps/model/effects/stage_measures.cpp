@@ -2,8 +2,8 @@
 
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "dem/base/rest.hpp"
 #include "dem/columns.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
 #include <limits>

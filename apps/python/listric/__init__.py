@@ -7,7 +7,7 @@
 
 SI units, except years (a) where a name ends with _a. x is measured from the breakaway into the hanging
 wall. Columns of snapshots are those of the file, bit for bit: there y points up, from the original
-surface. All else that has a depth has it positive down. docs/python.md says more.
+surface. All else that has a depth has it positive down. docs/guides/python.md says more.
 """
 
 from .errors import BadValue, ListricError, ProgramError, RunError, UnknownName

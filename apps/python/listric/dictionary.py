@@ -7,7 +7,7 @@ from pathlib import Path
 
 @cache
 def dictionary() -> dict[str, dict]:
-    """{name: {"table", "unit", "doc", ...}} of all measures (docs/measures.md); "parts" are what the
+    """{name: {"table", "unit", "doc", ...}} of all measures (docs/reference/measures.md); "parts" are what the
     objects of a list have, by their names, too."""
     try:
         entries = json.loads(Path(__file__).with_name("dictionary.json").read_text(encoding="utf-8"))

@@ -94,7 +94,7 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
     """Runs a scene to its end and returns the Run.
 
     scene      name (`listric scenes`), or a path to a file
-    set        {"table.key": value} of parameters; units are in their names (docs/parameters.md)
+    set        {"table.key": value} of parameters; units are in their names (docs/reference/parameters.md)
     without    names of effects to switch off
     accuracy   "draft", "standard", "fine" or "sandbox"
     seed       of the packing and of everything random

@@ -90,7 +90,7 @@ class Run:
     @cached_property
     def history(self) -> Table:
         """history.csv: a row at the start and after every `output.interval_m`, a column per measure
-        (docs/measures.md), NaN where it has no meaning; units as the program declares them, or as the last
+        (docs/reference/measures.md), NaN where it has no meaning; units as the program declares them, or as the last
         snapshot has them. An end between two rows has none: `summary` has its measures."""
         self._tell_reservations()
         table = read_csv(self.folder / "history.csv", self._unit_of)
@@ -100,7 +100,7 @@ class Run:
 
     @cached_property
     def summary(self) -> Named:
-        """summary.json as it stands: measures at the end of the run by name (docs/measures.md)."""
+        """summary.json as it stands: measures at the end of the run by name (docs/reference/measures.md)."""
         self._tell_reservations()
         return read_summary(self.folder)
 
@@ -113,7 +113,7 @@ class Run:
 
     @property
     def faults(self) -> list[dict]:
-        """The faults of summary.json in its order, a dict each with its names (docs/measures.md).
+        """The faults of summary.json in its order, a dict each with its names (docs/reference/measures.md).
         `points_m` is an array of shape (points, 2) of x and depth; `throw_m` is {horizon: throw in m},
         numbered as `stratum` of `run.horizons`, `throw_error_m` its errors. `snapshot.lines("faults")` has those of any moment."""
         found = self.summary["faults"]
@@ -126,7 +126,7 @@ class Run:
     @property
     def horizons(self) -> list[dict]:
         """Tops of strata and of pre-rift layers at the end, cut at faults: a dict per line with
-        `name`, `stratum`, `x_m`, `depth_m` and the others of docs/export.md, which explains how they are
+        `name`, `stratum`, `x_m`, `depth_m` and the others of docs/guides/export.md, which explains how they are
         found. `snapshot.lines("horizons")` has the lines of any moment, with their source."""
         return self._some_snapshots()[-1].lines("horizons")
 

@@ -138,7 +138,7 @@ class Snapshot:
         """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base",
         "layers", "well" where pore water is under pressure, and "burial" of the strata in a well.
 
-        A dict per line with the columns of docs/export.md: one value for those of a line, an array of
+        A dict per line with the columns of docs/guides/export.md: one value for those of a line, an array of
         shape (points,) for those of a point, among them x_m and depth_m (positive down from the level of
         `depth_reference`). Wells are those of a call without `--x`. Read from the run's folder `export` if
         they are there and younger than the snapshots up to this one and than the program; else the program is called, which takes seconds and

@@ -1,5 +1,5 @@
 #include "apps/run/forecast/time_left.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>

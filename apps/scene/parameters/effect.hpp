@@ -9,7 +9,7 @@
 #include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/genesis/genesis.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <any>
 #include <filesystem>

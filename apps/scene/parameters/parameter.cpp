@@ -1,7 +1,7 @@
 #include "apps/scene/parameters/parameter.hpp"
 
 #include "apps/support/words/spelling.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/round_off.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/material.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <array>
 #include <optional>

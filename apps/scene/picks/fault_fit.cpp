@@ -2,8 +2,8 @@
 
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/words/log.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/NonLinearOptimization>

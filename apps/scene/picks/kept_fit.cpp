@@ -3,7 +3,7 @@
 #include "apps/support/files/cache_folder.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/version.hpp"
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>
 

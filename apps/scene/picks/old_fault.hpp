@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/picks/observed.hpp"
-#include "dem/point.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <string>
 #include <vector>

@@ -8,8 +8,8 @@
 #include "apps/support/files/csv.hpp"
 #include "apps/support/files/csv_records.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

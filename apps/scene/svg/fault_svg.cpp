@@ -7,8 +7,8 @@
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 
 #include "apps/scene/svg/svg_text.hpp"
 #include "apps/support/words/spelling.hpp"
-#include "dem/elementary.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/hypotenuse.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "apps/scene/svg/svg_text.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 

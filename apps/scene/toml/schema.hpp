@@ -5,7 +5,7 @@
 #include <string>
 
 // JSON schemas (draft 4, the newest that TOML editors know) of the files that users write, from the
-// declarations that read them. What a schema cannot say is in docs/editors.md.
+// declarations that read them. What a schema cannot say is in docs/guides/editors.md.
 
 namespace listric {
 

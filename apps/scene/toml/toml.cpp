@@ -1,7 +1,6 @@
 #include "apps/scene/toml/toml.hpp"
 
 #include "apps/scene/toml/pieces.hpp"
-#include "apps/scene/toml/toml_depth.hpp"
 #include "apps/scene/toml/toml_slips.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"

@@ -35,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Share by which a misfit of kinematics may exceed the least and be as good: a choice, within
-/// which the truth lies of the two sections that docs/fit.md shows.
+/// which the truth lies of the two sections that docs/guides/fit.md shows.
 constexpr double as_good = 0.1;
 
 /// A shape's number, the range of values that are as good, and whether that is narrow.

@@ -26,10 +26,10 @@ struct BasinFitRequest {
     StopToken stop = {};
 };
 
-/// Fits a listric detachment to picked horizons (docs/fit.md): kinematics first, then drafts about
-/// what they find. Leaves fit.json, profile.csv, with runs fit.csv, and the scene PICKS.toml in the
-/// output folder, and prints the answer. Runs that are there already are not made again. Returns
-/// false where too many runs have failed. Throws UsageError, SceneError, StorageError,
+/// Fits a listric detachment to picked horizons (docs/guides/fit.md): kinematics first, then drafts
+/// about what they find. Leaves fit.json, profile.csv, with runs fit.csv, and the scene PICKS.toml
+/// in the output folder, and prints the answer. Runs that are there already are not made again.
+/// Returns false where too many runs have failed. Throws UsageError, SceneError, StorageError,
 /// Interrupted: the same call goes on from there.
 bool run_basin_fit(const BasinFitRequest& request);
 

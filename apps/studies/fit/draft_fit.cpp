@@ -1,5 +1,5 @@
 #include "apps/studies/fit/draft_fit.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "apps/studies/fit/listric_shape.hpp"
 
-#include "dem/elementary.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cmath>
 

@@ -235,8 +235,9 @@ private:
         for (std::size_t m = 0; m < plan_.measures.size(); ++m)
             if (std::ranges::none_of(rows,
                                      [&](const SweepRow& r) { return r.measures[m].has_value(); }))
-                log_.say(fmt::format("warning: no run has the measure {} (docs/measures.md)",
-                                     plan_.measures[m].text));
+                log_.say(
+                    fmt::format("warning: no run has the measure {} (docs/reference/measures.md)",
+                                plan_.measures[m].text));
     }
 
     void warn_of_few_seeds() {

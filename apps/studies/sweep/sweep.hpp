@@ -25,8 +25,8 @@ struct SweepRequest {
     StopToken stop = {};
 };
 
-/// Makes the runs of a plan (docs/sweeps.md) and leaves sweep.csv, effects.csv, sheet.png and
-/// effects.png in the output folder; a task leaves its rows of sweep.csv. Runs that are there
+/// Makes the runs of a plan (docs/guides/sweeps.md) and leaves sweep.csv, effects.csv, sheet.png
+/// and effects.png in the output folder; a task leaves its rows of sweep.csv. Runs that are there
 /// already are not made again. Returns false where all runs have failed. Throws UsageError,
 /// SceneError, StorageError, Interrupted: the same call goes on from there.
 bool run_sweep(const SweepRequest& request);

@@ -9,8 +9,8 @@
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/elementary.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -241,7 +241,7 @@ SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on
     const std::size_t sign = measure.text.find('@');
     if (measure.text.empty() || measure.text.find_first_of(", \"") != std::string::npos ||
         shown(measure.text) != measure.text)
-        fail(entry, "is no name of a measure (docs/measures.md)");
+        fail(entry, "is no name of a measure (docs/reference/measures.md)");
     if (sign != std::string::npos) {
         measure.name = measure.text.substr(0, sign);
         measure.at = read_moment(entry, measure, measure.text.substr(sign + 1), scene);

@@ -37,7 +37,7 @@ struct SweepParameter {
 /// A measure of every run.
 struct SweepMeasure {
     std::string text;         ///< as the plan has it: NAME or NAME@METRES
-    std::string name;         ///< of docs/measures.md
+    std::string name;         ///< of docs/reference/measures.md
     std::optional<double> at; ///< extension, m; none: the run's end
 };
 

@@ -5,7 +5,7 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
 

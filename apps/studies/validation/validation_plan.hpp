@@ -24,7 +24,7 @@ struct ValidationRun {
 /// Expectation of a measure, with its source.
 struct Expectation {
     enum class Kind { faults, kinematics, conservation } kind = Kind::faults;
-    std::string measure;               ///< name in docs/measures.md
+    std::string measure;               ///< name in docs/reference/measures.md
     std::string over;                  ///< the measure by which it is divided
     std::string what;                  ///< for people
     std::string run;                   ///< empty: the experiment's first

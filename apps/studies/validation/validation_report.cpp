@@ -267,7 +267,7 @@ std::string introduction(const ValidationFindings& f) {
     }
     return fmt::format("Made by `listric validate` from the record of {} of {} runs at accuracy "
                        "{}, seeds {}; do not edit. Criteria and their words are in `{}`; "
-                       "`docs/measures.md` defines the measures; "
+                       "`docs/reference/measures.md` defines the measures; "
                        "[measures.csv]({}/measures.csv) has every number.\n\n",
                        there, wanted, f.accuracy, seeds_text(f.seeds), f.plan_name,
                        f.beside.filename().string()) +

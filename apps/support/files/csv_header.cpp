@@ -58,24 +58,6 @@ std::size_t line_of_names(std::string_view text, const std::vector<std::string_v
 constexpr const char* lengths = "1 km = 1000 m, 1 ft = 0.3048 m";
 constexpr const char* times = "1 Ma = 1e6 a, 1 ka = 1000 a";
 
-/// Names of columns with depths or distances in other programs.
-bool is_other_name(std::string_view column, std::string_view missing) {
-    const auto one_of = [&](std::initializer_list<std::string_view> names) {
-        return std::ranges::any_of(names, [&](auto name) {
-            return column == name || column.starts_with(fmt::format("{}_", name));
-        });
-    };
-    if (missing == "depth_m")
-        return one_of({"z", "y", "tvd", "tvdss", "elevation", "elev", "height", "tiefe"});
-    if (missing == "x_m")
-        return one_of({"distance", "dist", "offset", "easting", "east", "position", "lon"});
-    if (missing == "y_m")
-        return one_of({"depth", "z", "elevation", "elev", "height", "level"});
-    if (missing == "name")
-        return one_of({"horizon", "fault", "label", "surface", "id", "marker"});
-    return false;
-}
-
 /// Whether a column of ours ends so in files of others.
 bool is_unit(std::string_view word) {
     static constexpr std::string_view units[] = {
@@ -129,12 +111,13 @@ std::string header_hint(const std::vector<std::string>& header, std::string_view
     for (const std::string& cell : header)
         if (std::string hint = unit_hint(cell, missing); !hint.empty())
             return hint;
-    for (const std::string& cell : header)
-        if (is_other_name(plain(cell), missing))
-            return fmt::format("; if {} is what is meant, call it {}{}", shown_start(cell), missing,
-                               missing == "depth_m" ? ", in metres and positive down"
-                               : missing == "y_m"   ? ", in metres and positive up"
-                                                    : "");
+    const bool is_down = missing == "depth_m";
+    if (is_down || missing == "y_m")
+        for (const std::string& cell : header)
+            if (const std::string name = plain(cell); name == "z" || name == "z_m")
+                return fmt::format(
+                    "; if {} is what is meant, call it {}, in metres and positive {}",
+                    shown_start(cell), missing, is_down ? "down" : "up");
     for (const std::string& cell : header)
         if (const auto meant = nearest(cell, needed); meant && *meant == missing)
             return fmt::format("; did you mean {} by \"{}\"?", missing, shown_start(cell));

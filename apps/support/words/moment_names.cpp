@@ -1,5 +1,5 @@
 #include "apps/support/words/moment_names.hpp"
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
 

@@ -83,7 +83,7 @@ public:
         received_.assign(received.begin(), received.end());
     }
 
-    // Messages of MPI's own: PetscSF's take longer (docs/scaling.md).
+    // Messages of MPI's own: PetscSF's take longer (docs/guides/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
         each_part(received, received_, [&](std::span<double> part, std::size_t rank) {
             messages_.receive(part, MPI_DOUBLE, rank);

@@ -1,4 +1,4 @@
-"""The recipes of docs/cookbook.md, as they stand there, and the results that it names.
+"""The recipes of docs/guides/cookbook.md, as they stand there, and the results that it names.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest cookbook_test
 
@@ -17,7 +17,7 @@ from pathlib import Path
 from documents.document_commands import commands, run
 from program import SOURCES
 
-DOCUMENT = "docs/cookbook.md"
+DOCUMENT = "docs/guides/cookbook.md"
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
                                         "a build without finite elements")
 

@@ -90,7 +90,7 @@ class FrontDoor(unittest.TestCase):
         return {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
     def test_works_are_those_of_the_documents(self):
-        listed = (SOURCES / "docs/references.md").read_text()
+        listed = (SOURCES / "docs/reference/references.md").read_text()
         declared = (SOURCES / "apps/model/works.cpp").read_text()
         for name in re.findall(r"const Work \w+\{\"([A-Z]\w+)", declared):
             self.assertIn(name, listed)

@@ -32,7 +32,7 @@ class Notebooks(unittest.TestCase):
         code = [cell for cell in kept.cells if cell.cell_type == "code"]
         self.assertEqual([cell for cell in code if cell.outputs or cell.execution_count], [])
         page = (NOTEBOOKS / f"{name}.md").read_text()
-        without = re.sub(r"!\[[^]]*\]\(\.\./pictures/notebook-[^)]*\)", "", page)
+        without = re.sub(r"!\[[^]]*\]\(\.\./pictures/notebooks/[^)]*\)", "", page)
         self.assertEqual([cell.source for cell in kept.cells
                           if re.sub(r"\.ipynb\)", ".md)", cell.source) not in without], [],
                          f"call docs/notebooks/render.py {name}")

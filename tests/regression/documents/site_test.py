@@ -95,8 +95,8 @@ class Site(unittest.TestCase):
     def test_the_search_finds_parameters_and_measures(self):
         index = json.loads((self.site / "search/search_index.json").read_text())
         separator = re.compile(index["config"]["separator"])
-        for page, word in (("parameters", "least_slip_m"), ("parameters", "fault_weakening.least_slip_m"),
-                           ("measures", "rollover_tilt_deg"), ("validation-measures", "hinge_step_m")):
+        for page, word in (("reference/parameters", "least_slip_m"), ("reference/parameters", "fault_weakening.least_slip_m"),
+                           ("reference/measures", "rollover_tilt_deg"), ("reference/validation-measures", "hinge_step_m")):
             found = [entry for entry in index["docs"] if entry["location"].startswith(f"{page}/#")
                      and word in separator.split(f"{entry['title']} {entry['text']}") and entry["title"].endswith(word)]
             self.assertEqual(len(found), 1, word)
@@ -104,13 +104,13 @@ class Site(unittest.TestCase):
             self.assertIn(f'id="{anchor}"', self.pages[Path(page, "index.html")])
 
     def test_has_what_the_program_declares(self):
-        calls = self.pages[Path("calls/index.html")]
+        calls = self.pages[Path("reference/calls/index.html")]
         for call in subprocess.run([PROGRAM, "help"], check=True, stdout=subprocess.PIPE, text=True).stdout.split("\nOptions")[0] \
                 .splitlines():
             if re.match(r"  [a-z]+  ", call):
                 self.assertIn(f"<code>listric {call.split()[0]}: ", calls)
-        self.assertIn('src="../architecture.svg"', self.pages[Path("architecture/index.html")])
-        self.assertIn("apps/run includes apps/scene", (self.site / "architecture.svg").read_text())
+        self.assertIn('src="../architecture.svg"', self.pages[Path("reference/architecture/index.html")])
+        self.assertIn("apps/run includes apps/scene", (self.site / "reference/architecture.svg").read_text())
 
     def test_the_search_finds_guides_before_records(self):
         folder = self.site / "search"
@@ -155,8 +155,8 @@ class Site(unittest.TestCase):
                     self.assertTrue(file.is_file() or Path(file, "index.html").is_file())
 
     def test_a_click_shows_a_picture_at_its_size(self):
-        page = next(text for name, text in self.pages.items() if name.parts[0] == "cost-of-accuracy")
-        self.assertRegex(page, r'<a href="([^"]*pictures/grain-10km.webp)"><img [^>]*src="\1"')
+        page = next(text for name, text in self.pages.items() if name.parts[:2] == ("explain", "cost-of-accuracy"))
+        self.assertRegex(page, r'<a href="([^"]*pictures/accuracy/grain-10km.webp)"><img [^>]*src="\1"')
 
     def test_has_what_its_styles_fetch(self):
         for style in self.site.rglob("*.css"):

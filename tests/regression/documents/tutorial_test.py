@@ -1,4 +1,4 @@
-"""The ten commands of docs/your-own-section.md, as they stand there, and what they leave.
+"""The ten commands of docs/start/your-own-section.md, as they stand there, and what they leave.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest tutorial_test
 """
@@ -19,7 +19,7 @@ class Tutorial(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.out = Path(folder.name, "out/tutorial")
-        cls.calls = commands("docs/your-own-section.md", "All of it in ten commands")
+        cls.calls = commands("docs/start/your-own-section.md", "All of it in ten commands")
         cls.ended = [run(call, "out/tutorial", cls.out, figures=not re.search("/(second|weak)$", call))
                      for call in cls.calls]
 

@@ -2,6 +2,7 @@
 
 #include "dem/base/motion.hpp"
 #include "dem/base/place.hpp"
+#include "tests/message_of.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -36,12 +37,7 @@ protected:
     }
 
     std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) const {
-        try {
-            load(more, set);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return support::message_of<SceneError>([&] { load(more, set); }, "");
     }
 
     State last_state(const std::string& name) const {

@@ -3,6 +3,7 @@
 // its mass; pairs that do not go together are refused by name.
 
 #include "apps/model/model.hpp"
+#include "tests/message_of.hpp"
 #include "tests/regression/runs/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 #include "tests/xml_files.hpp"
@@ -258,12 +259,9 @@ TEST_F(Combination, PrescribedMotionGoesWithEachOfThem) {
 
 TEST_F(Combination, PairsThatDoNotGoTogetherAreRefused) {
     const auto refusal = [](std::vector<std::string> without) -> std::string {
-        try {
+        return support::message_of<SceneError>([&] {
             load_scene({.scene = test_scene("every-effect.toml"), .without = std::move(without)});
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        });
     };
     EXPECT_THAT(refusal({"bonds"}),
                 testing::HasSubstr("bond_healing: needs [bonds], which the scene does not have"));

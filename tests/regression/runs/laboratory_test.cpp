@@ -1,4 +1,4 @@
-#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/calibration/calibration.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/laboratory/pure_shear.hpp"
 #include "apps/laboratory/tests.hpp"
@@ -146,7 +146,7 @@ TEST(Laboratory, ShearBoxMeasuresBulkFriction) {
 }
 
 // A slab of 1,500 discs at the paper's rates: what it measures, and that a second call finds the
-// finished slab. How faults dip takes finer slabs (docs/laboratory.md).
+// finished slab. How faults dip takes finer slabs (docs/guides/laboratory.md).
 TEST(Laboratory, PureShearStretchesASlab) {
     const Folder folder;
     LaboratoryRequest request = small("pure-shear", "mat18-b", folder.path);

@@ -6,6 +6,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/prediction.hpp"
 #include "apps/run/genesis_cache.hpp"
+#include "tests/message_of.hpp"
 #include "tests/regression/runs/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -41,12 +42,7 @@ protected:
     }
 
     static std::string refusal(const SceneRequest& request, EffectList effects) {
-        try {
-            load_scene(request, effects);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load_scene(request, effects); });
     }
 };
 

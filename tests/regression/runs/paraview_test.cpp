@@ -1,12 +1,12 @@
 // The series for ParaView, opened and drawn by ParaView's own libraries (or VTK's, its readers).
 
 #include "apps/archive/folder/run_folder.hpp"
-#include "apps/figures/sections/vtk_array.hpp"
+#include "apps/figures/sections/paraview.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 #include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 #include "tests/xml_files.hpp"

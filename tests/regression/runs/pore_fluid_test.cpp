@@ -6,6 +6,7 @@
 #include "apps/figures/sections/export_run.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
+#include "tests/message_of.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -47,12 +48,9 @@ protected:
 
     static std::string refusal(const std::vector<std::string>& set,
                                const std::vector<std::string>& without = {}) {
-        try {
+        return support::message_of<SceneError>([&] {
             load_scene({.scene = test_scene("every-effect.toml"), .set = set, .without = without});
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        });
     }
 
     nlohmann::json run_with(const std::string& name, const std::vector<std::string>& set,

@@ -6,6 +6,7 @@
 #include "apps/archive/tables/observed_misfit.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "tests/message_of.hpp"
 #include "tests/places.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
@@ -246,12 +247,7 @@ TEST_F(Stages, AreRefusedWithTheirLine) {
 
     const std::string lis = "inversion-lis1";
     const auto of_lis = [&](const std::vector<std::string>& set) {
-        try {
-            load_scene({.scene = lis, .set = set});
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string("accepted");
+        return support::message_of<SceneError>([&] { load_scene({.scene = lis, .set = set}); });
     };
     EXPECT_EQ(of_lis({}), "accepted");
     EXPECT_THAT(of_lis({"stage.1.distance_m=-27000"}),

@@ -7,6 +7,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -143,12 +144,7 @@ TEST(RunRecords, ThatAreDamagedAreRefusedWithTheirLine) {
     const auto file = file_of_test();
     const auto message = [&](const std::string& text) {
         write_text(file, text);
-        try {
-            read_run_records(file);
-        } catch (const StorageError& error) {
-            return std::string(error.what());
-        }
-        return std::string("none");
+        return support::message_of<StorageError>([&] { read_run_records(file); }, "none");
     };
     const std::string head = "record,scene,made_by,mean_radius_m,speed_m_per_s,extension_m,seed";
     EXPECT_THAT(message(head + ",tilt\n"), HasSubstr(":1: tilt is no column"));

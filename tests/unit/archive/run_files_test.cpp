@@ -3,6 +3,7 @@
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/folder/run_files.hpp"
 #include "apps/archive/folder/scene_lines.hpp"
+#include "tests/message_of.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,12 +47,7 @@ TEST_F(RunFiles, OfCallsWithoutARunReplaceOnlyTheirOwn) {
     const fs::path table = folder / "sweep.csv";
     const auto objection = [&](const std::string& mark, const std::vector<fs::path>& read) {
         const OwnFile written[]{{table, mark}, {folder / "none.csv", mark}};
-        try {
-            require_own(written, read);
-        } catch (const UsageError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return support::message_of<UsageError>([&] { require_own(written, read); }, "");
     };
     EXPECT_EQ(objection("a file", {folder / "scene.toml", folder / "missing"}), "");
     EXPECT_THAT(objection("run,seed", {}), testing::HasSubstr("is no file of such a call"));

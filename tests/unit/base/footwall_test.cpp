@@ -3,6 +3,7 @@
 #include "fem/blocks.hpp"
 #include "fem/byerlee.hpp"
 #include "fem/curve.hpp"
+#include "tests/message_of.hpp"
 #include "tests/verification/footwalls.hpp"
 
 #include <gmock/gmock.h>
@@ -164,12 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Footwall, Blocks, testing::Range(0, 6));
 std::string refusal(const std::function<void(FootwallRequest&)>& spoil) {
     FootwallRequest request = small_footwall();
     spoil(request);
-    try {
-        fem::check(request);
-    } catch (const fem::FootwallError& error) {
-        return error.what();
-    }
-    return "";
+    return support::message_of<fem::FootwallError>([&] { fem::check(request); }, "");
 }
 
 TEST(FootwallCheck, NamesWhatIsWrong) {

@@ -1,4 +1,4 @@
-#include "dem/elementary.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Hashes stand in files and in recorded results: their values may not change.
 
-#include "dem/hash.hpp"
+#include "dem/numbers/hash.hpp"
 
 #include <gtest/gtest.h>
 

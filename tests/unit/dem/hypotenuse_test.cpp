@@ -1,4 +1,4 @@
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Sums that do not depend on their order are equal to the bit, and exact to their grid of 2^-34;
 // maxima keep what is no number.
 
-#include "dem/order_free.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/order_free.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <algorithm>
 #include <set>

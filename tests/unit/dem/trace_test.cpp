@@ -2,7 +2,7 @@
 
 #include "dem/base/place.hpp"
 #include "dem/base/trace.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // that their sum is off by 0.29 sqrt(54) discs of 135, 1.6 %; 2 % is asked for with this seed. A
 // soft layer is held to 0.2 % by genesis, on top of which come the third equilibrium and bonding.
 
-#include "dem/bond.hpp"
+#include "dem/contacts/bond.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/bond_healing.hpp"

@@ -4,10 +4,10 @@
 // the discs touches a wall or the surface, where packing is looser.
 
 #include "dem/cycle/cycle.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
-#include "dem/nothing_left.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include "apps/scene/scene.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/events/sedimentation.hpp"
+#include "tests/message_of.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>
@@ -78,16 +79,7 @@ protected:
         return (folder / name).string();
     }
     template <class Call> std::string error_of(Call&& call) const {
-        try {
-            call();
-        } catch (const SceneError& error) {
-            std::string message = error.what();
-            const std::string prefix = folder.string() + "/";
-            for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
-                message.erase(at, prefix.size());
-            return message;
-        }
-        return "no error";
+        return support::scene_message_of(call, folder);
     }
     std::string error(const std::string& csv) const {
         return error_of([&] { read_target_csv(write(csv, "line.csv")); });

@@ -1,8 +1,8 @@
 // Broken bonds, strain that stays, and relief of strata, where they are known.
 
 #include "apps/measures/faults/broken_rock.hpp"
-#include "apps/measures/paper/persistence.hpp"
-#include "apps/measures/paper/relief.hpp"
+#include "apps/measures/paper/folds.hpp"
+#include "apps/measures/paper/grabens.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "apps/measures/strata/contour.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "dem/contacts/power_cell.hpp"
+#include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
-#include "dem/units.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

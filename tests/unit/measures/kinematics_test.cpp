@@ -2,7 +2,7 @@
 // heights are off by at most 25^2 / 8 R, centimetres, and the last column by one sample.
 
 #include "apps/measures/basin/kinematics.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "apps/measures/faults/moved_points.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
+#include "tests/message_of.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>
@@ -126,12 +127,11 @@ TEST(MovedPoints, AFileThatIsNoneIsRefusedByLineAndColumn) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "points.csv";
     const auto refusal = [&](const char* text) -> std::string {
         std::ofstream(file) << text;
-        try {
-            read_csv(file, {.numbers = {"x_m", "depth_m"}});
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return support::message_of<SceneError>(
+            [&] {
+                read_csv(file, {.numbers = {"x_m", "depth_m"}});
+            },
+            "");
     };
     EXPECT_EQ(refusal("x_m,depth_m\n1,2\n"), "");
     EXPECT_THAT(refusal("x_m,depht_m\n1,2\n"), testing::HasSubstr("no column depth_m"));

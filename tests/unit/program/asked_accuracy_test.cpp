@@ -4,6 +4,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/studies/sweep/student.hpp"
 #include "apps/support/error.hpp"
+#include "tests/message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -17,12 +18,7 @@ using testing::HasSubstr;
 namespace {
 
 std::string message(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "none";
+    return support::message_of<UsageError>(call, "none");
 }
 
 TEST(AskedAccuracy, ReadsTimesWithTheirUnit) {

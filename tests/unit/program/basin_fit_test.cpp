@@ -4,7 +4,7 @@
 #include "apps/studies/fit/draft_fit.hpp"
 #include "apps/studies/fit/kinematic_fit.hpp"
 #include "apps/studies/fit/simplex_search.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Exit codes of the exceptions that end a call: docs/exit-codes.md.
+// Exit codes of the exceptions that end a call: docs/reference/exit-codes.md.
 
 #include "apps/run/exit_code.hpp"
 

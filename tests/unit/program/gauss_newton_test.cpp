@@ -1,4 +1,4 @@
-#include "apps/laboratory/gauss_newton.hpp"
+#include "apps/laboratory/calibration/gauss_newton.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/laboratory/specimen.hpp"
+#include "apps/laboratory/sample.hpp"
 
 #include "apps/laboratory/servo.hpp"
 #include "dem/contacts/contacts.hpp"

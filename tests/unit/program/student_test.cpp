@@ -3,7 +3,7 @@
 
 #include "apps/studies/sweep/student.hpp"
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,8 @@
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/sweep/sweep_table.hpp"
 #include "apps/support/error.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
+#include "tests/message_of.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,12 +53,7 @@ protected:
         return load_sweep_plan(file);
     }
     std::string complaint(const std::string& from, const std::string& to) {
-        try {
-            load(replaced(plan_text, from, to));
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load(replaced(plan_text, from, to)); });
     }
     static std::vector<std::string> texts(const SweepPoint& point) {
         std::vector<std::string> all;
@@ -296,12 +292,7 @@ double expected(const std::string& term) {
 
 TEST_F(SweepPlanFile, MoreRunsThanAnybodyMakesAreRefusedBeforeTheyTakeMemory) {
     const auto said = [&](const std::string& text) -> std::string {
-        try {
-            load(text);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load(text); });
     };
     const std::string hypercube =
         replaced(replaced(replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 100000"),

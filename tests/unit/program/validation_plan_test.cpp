@@ -4,6 +4,7 @@
 #include "apps/scene/scene.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
+#include "tests/message_of.hpp"
 #include "tests/places.hpp"
 
 #include <gmock/gmock.h>
@@ -62,12 +63,7 @@ protected:
     std::string complaint(const std::string& from, const std::string& to) {
         std::string text = plan_text;
         text.replace(text.find(from), from.size(), to);
-        try {
-            load(text);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "none";
+        return support::message_of<SceneError>([&] { load(text); }, "none");
     }
 };
 

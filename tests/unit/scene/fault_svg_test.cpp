@@ -6,6 +6,7 @@
 #include "apps/scene/svg/svg_path.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -45,14 +46,11 @@ protected:
         return read_fault_svg(source, file);
     }
     std::string complaint(const std::string& inside, const std::string& outer = "") {
-        try {
+        return support::message_of<SceneError>([&] {
             const FaultPoints fault = read(inside, outer);
             DetachmentParameters detachment;
             fit_detachment(detachment, fault, source.tolerance);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        });
     }
     /// Whether the first and the last point are at the ends of the section.
     void expect_placed(const std::string& inside, const std::string& outer = "") {
@@ -190,12 +188,7 @@ TEST(PickedGap, IsJudgedByWhatTheFaultMayDoInIt) {
     };
     const auto said = [&] {
         DetachmentParameters detachment;
-        try {
-            fit_detachment(detachment, fault, 50.0);
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string("accepted");
+        return support::message_of<SceneError>([&] { fit_detachment(detachment, fault, 50.0); });
     };
     // Near picks on a bend, a straight ramp of 4 km without any, and again near ones.
     for (double k = 0.0; k < 20.0; ++k)

@@ -2,6 +2,7 @@
 // them in the right order.
 
 #include "apps/scene/parameters/material_file.hpp"
+#include "tests/message_of.hpp"
 
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
@@ -64,17 +65,7 @@ protected:
     }
 
     template <class Call> std::string error_of(Call&& call) const {
-        try {
-            call();
-        } catch (const SceneError& error) {
-            EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-            std::string message = error.what();
-            const std::string prefix = folder.string() + "/";
-            for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
-                message.erase(at, prefix.size());
-            return message;
-        }
-        return "no error";
+        return support::scene_message_of(call, folder);
     }
 
     std::string error(const std::string& rock) const {

@@ -7,6 +7,7 @@
 #include "apps/scene/picks/picked_pieces.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
+#include "tests/message_of.hpp"
 #include "tests/support.hpp"
 
 #include <fmt/format.h>
@@ -65,12 +66,7 @@ protected:
     }
     std::string complaint_of(const std::string& text) const {
         std::ofstream(folder / "picks.csv") << text;
-        try {
-            load("horizons = \"picks.csv\"\n");
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load("horizons = \"picks.csv\"\n"); });
     }
 };
 
@@ -131,12 +127,7 @@ TEST_F(PicksFile, DamagedOnesAreRefusedWithLineAndCure) {
                 HasSubstr(":3: age_a: a has 100000 above and 200000 here"));
     EXPECT_THROW(load("horizons = \"none.csv\"\n"), SceneError);
     const auto refusal = [&](const std::string& table) -> std::string {
-        try {
-            load(table);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load(table); });
     };
     EXPECT_THAT(refusal("horizons = \".\"\n"), HasSubstr("is a directory"));
     EXPECT_THAT(refusal("horizons = \"\"\n"), HasSubstr("observed.horizons: is empty"));

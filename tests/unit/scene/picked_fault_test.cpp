@@ -6,7 +6,8 @@
 #include "apps/scene/picks/fault_fit.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -126,12 +127,7 @@ protected:
         return load_scene(request, program_effects());
     }
     std::string complaint(const std::string& keys, const std::string& more = "") const {
-        try {
-            load(keys, more);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return support::message_of<SceneError>([&] { load(keys, more); });
     }
     /// Message about a file of this text; one line.
     std::string complaint_of(const std::string& text) const {

@@ -11,7 +11,7 @@
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
-#include "dem/round_off.hpp"
+#include "dem/numbers/round_off.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>

@@ -65,7 +65,7 @@ TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
     write("fault.csv",
           "x_m,depth_m\n0,0\n128,1957\n511,3882\n1141,5740\n2009,7499\n3099,9131\n4393,10606\n5868,"
           "11900\n7499,12990\n9259,13858\n11117,14488\n13042,14871\n14999,15000\n30000,15000\n");
-    for (const char* document : {"README.md", "docs/your-own-section.md"}) {
+    for (const char* document : {"README.md", "docs/start/your-own-section.md"}) {
         const auto scenes = scenes_in(document);
         EXPECT_EQ(scenes.size(), 1u) << document;
         for (const std::string& scene : scenes)
@@ -73,11 +73,12 @@ TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
                 << document;
     }
     // The tutorial makes these tables.
-    fs::copy_file(fs::path(source_folder) / "docs/your-own-section/scene.toml",
+    fs::copy_file(fs::path(source_folder) / "docs/start/your-own-section/scene.toml",
                   folder / "tutorial.toml", fs::copy_options::overwrite_existing);
     write("picks.csv", "name,x_m,depth_m\na,3000,100\na,4000,200\n");
     EXPECT_EQ(line((folder / "tutorial.toml").string()), shipped);
-    for (const auto& entry : fs::directory_iterator(fs::path(source_folder) / "docs/cookbook")) {
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(source_folder) / "docs/guides/cookbook")) {
         const bool is_scene = contents(entry.path()).find("[fault_weakening]") != std::string::npos;
         EXPECT_EQ(is_scene ? line(entry.path().string()) : shipped, shipped) << entry.path();
     }
@@ -102,7 +103,7 @@ TEST_F(RockLine, NamesWhatIsInForce) {
     EXPECT_EQ(line("lis1", {"bonds.shear_strength_pa=9e9"}).substr(0, 43),
               "rock: mat18-b, shear_strength_pa changed; f");
     const std::string sandstone =
-        (fs::path(source_folder) / "docs/cookbook/sandstone.toml").string();
+        (fs::path(source_folder) / "docs/guides/cookbook/sandstone.toml").string();
     EXPECT_EQ(line("lis1", {"materials.basement=" + sandstone}).substr(0, 16), "rock: sandstone;");
 }
 

@@ -9,6 +9,7 @@
 #include "apps/support/files/file.hpp"
 #include "dem/events/old_faults.hpp"
 #include "dem/events/property_update.hpp"
+#include "tests/message_of.hpp"
 #include "tests/support.hpp"
 
 #include <fmt/format.h>
@@ -42,15 +43,7 @@ protected:
         return load_scene(request);
     }
     std::string error(const std::string& tables, const SceneRequest& request = {}) const {
-        try {
-            load(tables, request);
-        } catch (const SceneError& error) {
-            std::string message = error.what();
-            EXPECT_THAT(message, Not(HasSubstr("\n")));
-            const std::string prefix = folder.string() + "/";
-            return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
-        }
-        return "no error";
+        return support::scene_message_of([&] { load(tables, request); }, folder);
     }
 
     static std::string layer(const std::string& name, const std::string& lines) {

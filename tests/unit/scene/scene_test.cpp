@@ -7,7 +7,8 @@
 #include "dem/events/compaction.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -66,13 +67,7 @@ protected:
     }
 
     static std::string error_of(const SceneRequest& request) {
-        try {
-            load_scene(request);
-        } catch (const SceneError& error) {
-            EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-            return error.what();
-        }
-        return "no error";
+        return support::scene_message_of([&] { load_scene(request); });
     }
 
     /// The message without the folder: "scene.toml:3: ...".

@@ -10,6 +10,7 @@
 #include "apps/scene/toml/template.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/json_text.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -95,15 +96,7 @@ protected:
         return load_scene(request, effects());
     }
     std::string error(const std::string& tables, const SceneRequest& request = {}) const {
-        try {
-            load(tables, request);
-        } catch (const SceneError& error) {
-            std::string message = error.what();
-            EXPECT_THAT(message, Not(HasSubstr("\n")));
-            const std::string prefix = folder.string() + "/";
-            return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
-        }
-        return "no error";
+        return support::scene_message_of([&] { load(tables, request); }, folder);
     }
     static std::vector<std::string> names(const Scene& scene) {
         std::vector<std::string> all;

@@ -1,8 +1,9 @@
 // How deep a text of TOML is nested, found before tables are made of it.
 
 #include "apps/scene/toml/toml.hpp"
-#include "apps/scene/toml/toml_depth.hpp"
+#include "apps/scene/toml/toml_slips.hpp"
 #include "apps/support/error.hpp"
+#include "tests/message_of.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,12 +24,7 @@ std::string repeated(const std::string& piece, int times) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        parse(text, "a.toml");
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return support::message_of<SceneError>([&] { parse(text, "a.toml"); }, "");
 }
 
 TEST(TomlDepth, DeepTextIsRefusedWithItsLine) {

@@ -5,6 +5,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/files/npy.hpp"
+#include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -26,12 +27,7 @@ using testing::StartsWith;
 
 /// Message of the StorageError that a call throws.
 template <class Call> std::string refusal(Call&& call) {
-    try {
-        call();
-    } catch (const StorageError& error) {
-        return error.what();
-    }
-    return "nothing";
+    return support::message_of<StorageError>(call, "nothing");
 }
 
 class FileTest : public testing::Test {

@@ -3,7 +3,7 @@
 // stable and that neither threads nor the kind of cycle change a bit.
 
 #include "dem/contacts/monitor.hpp"
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "tests/coupled_discs.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The footwall condensed to its interface, and forces on it.
 
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/footwalls.hpp"
 

@@ -1,7 +1,7 @@
 // Where a base without mass rests under the discs that rest on it, found by iteration: the place
 // that the modes, which have masses and dampers, come to.
 
-#include "dem/order_free.hpp"
+#include "dem/numbers/order_free.hpp"
 #include "tests/coupled_discs.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // own Newton's method, no line search. Both lay down a layer a step and then solve, so they are
 // equal but for where Newton's methods end and for digits printed.
 
-#include "dem/units.hpp"
+#include "dem/numbers/units.hpp"
 #include "fluid/pore_column.hpp"
 
 #include <gtest/gtest.h>

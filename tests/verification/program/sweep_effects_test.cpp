@@ -2,7 +2,7 @@
 // has a standard deviation of 0.5 %, so 93 to 97 % are four of them.
 
 #include "apps/studies/sweep/sweep_effects.hpp"
-#include "dem/random.hpp"
+#include "dem/numbers/random.hpp"
 
 #include <gtest/gtest.h>
 
