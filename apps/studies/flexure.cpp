@@ -1,9 +1,10 @@
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/provenance.hpp"
 #include "apps/figures/flexure_figure.hpp"
 #include "apps/figures/sections/paraview.hpp"
+#include "apps/run/options.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/memory.hpp"

@@ -1,6 +1,7 @@
 #include "apps/studies/fit/kinematic_fit.hpp"
 
 #include "apps/studies/fit/simplex_search.hpp"
+#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,9 @@ namespace listric {
 namespace {
 
 using Numbers = std::array<double, 4>; ///< dip, depth, share of the line, angle
+
+constexpr double shortest_line = 1.0; ///< m
+constexpr double flat = 60e3;         ///< m, as of shipped scenes
 
 constexpr double deepest = 60e3; ///< that is tried, m
 
@@ -107,6 +111,36 @@ FitProfile profile_of(const FitTask& task, const SimplexMinimum& best, std::size
 }
 
 } // namespace
+
+double ListricShape::line_length() const {
+    const double length = straight * depth / std::sin(dip * dem::pi / 180.0);
+    return length < shortest_line ? 0.0 : length;
+}
+
+double ListricShape::radius() const {
+    const double radians = dip * dem::pi / 180.0;
+    return (depth - line_length() * std::sin(radians)) / (1.0 - std::cos(radians));
+}
+
+dem::DetachmentParameters detachment_of(const ListricShape& shape) {
+    dem::DetachmentParameters detachment;
+    detachment.start_dip = shape.dip;
+    if (shape.line_length() > 0.0)
+        detachment.segments.push_back(dem::straight(shape.line_length()));
+    detachment.segments.push_back(dem::arc_to_dip(0.0, shape.radius()));
+    detachment.segments.push_back(dem::straight(flat));
+    return detachment;
+}
+
+const std::array<ShapeNumber, 3>& shape_numbers() {
+    static constexpr std::array<ShapeNumber, 3> numbers{{
+        {"breakaway_dip_deg", "dip at the breakaway", "degrees", &ListricShape::dip, 1.0, 12.0, 5.0,
+         false},
+        {"depth_m", "depth of the flat", "km", &ListricShape::depth, 1e-3, 0.1, 0.05, true},
+        {"straight", "straight share", "", &ListricShape::straight, 1.0, 0.15, 0.1, false},
+    }};
+    return numbers;
+}
 
 FitRange FitProfile::range(double most) const {
     const auto best = static_cast<std::size_t>(std::ranges::min_element(misfit) - misfit.begin());
