@@ -19,6 +19,7 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 namespace listric {
@@ -101,13 +102,6 @@ void add_targets(std::vector<ErrorTarget>& targets, const std::string& word,
                                  fmt::join(words, ", ")));
 }
 
-/// Target in the unit of the measure.
-std::optional<double> bound_of(const ErrorTarget& target, const KnownError& error) {
-    if (!target.is_share)
-        return target.most;
-    return error.mean == 0.0 ? std::nullopt : std::optional(target.most * std::abs(error.mean));
-}
-
 const KnownError& error_of(const AccuracyChoice& choice, const std::string& key) {
     return *std::ranges::find(choice.errors, key, &KnownError::key);
 }
@@ -115,8 +109,8 @@ const KnownError& error_of(const AccuracyChoice& choice, const std::string& key)
 bool meets(const AccuracyChoice& choice, const ErrorTarget& target, int seeds) {
     const KnownError& error = error_of(choice, target.key);
     const auto promised = promised_error(error, seeds);
-    const auto bound = bound_of(target, error);
-    return promised && bound && *promised <= *bound;
+    const double scale = target.is_share ? std::abs(error.mean) : 1.0; // 0: the mean is not known
+    return promised && scale > 0.0 && *promised <= target.most * scale;
 }
 
 AccuracyChoice with_seeds(AccuracyChoice choice, int seeds) {
@@ -232,41 +226,36 @@ std::vector<AccuracyChoice> recorded_ways(const SceneRequest& request, int threa
     return choices;
 }
 
-/// Labels of the measures whose promised errors another choice lowers, and of those that it raises,
-/// by a twentieth or more: less is chance.
-struct Exchange {
-    std::vector<std::string_view> lower, higher;
-};
-
-/// @param targets  measures that count; none: all
-Exchange exchange(const AccuracyChoice& now, const AccuracyChoice& other,
-                  std::span<const ErrorTarget> targets) {
-    Exchange found;
-    for (const KnownError& error : now.errors) {
-        const auto before = promised_error(error, now.seeds);
-        const auto after = promised_error(error_of(other, error.key), other.seeds);
-        if (!before || !after ||
-            (!targets.empty() && std::ranges::count(targets, error.key, &ErrorTarget::key) == 0))
-            continue;
-        if (*after < 0.95 * *before)
-            found.lower.push_back(archive::label_of(error.key));
-        else if (*after > 1.05 * *before)
-            found.higher.push_back(archive::label_of(error.key));
-    }
-    return found;
-}
-
 /// Another choice that more time brings, if it lowers what is asked for, and of all errors more
-/// than it raises.
+/// than it raises: by a twentieth or more, less is chance.
+/// @param targets  measures that count; none: all
 std::string bought(const AccuracyChoice& now, const std::optional<AccuracyChoice>& more,
                    std::span<const ErrorTarget> targets) {
-    const Exchange all = more ? exchange(now, *more, {}) : Exchange();
-    const Exchange asked = more ? exchange(now, *more, targets) : Exchange();
-    if (asked.lower.empty() || asked.lower.size() <= asked.higher.size() ||
-        all.lower.size() <= all.higher.size())
-        return " buys no smaller errors by what is recorded\n";
+    constexpr const char* nothing = " buys no smaller errors by what is recorded\n";
+    if (!more)
+        return nothing;
+    std::size_t lower = 0;
+    int lower_of_asked = 0; // less those that are higher
+    std::vector<std::string_view> higher;
+    for (const KnownError& error : now.errors) {
+        const auto before = promised_error(error, now.seeds);
+        const auto after = promised_error(error_of(*more, error.key), more->seeds);
+        if (!before || !after)
+            continue;
+        const bool is_asked =
+            targets.empty() || std::ranges::count(targets, error.key, &ErrorTarget::key) > 0;
+        if (*after < 0.95 * *before) {
+            ++lower;
+            lower_of_asked += is_asked;
+        } else if (*after > 1.05 * *before) {
+            higher.push_back(archive::label_of(error.key));
+            lower_of_asked -= is_asked;
+        }
+    }
+    if (lower_of_asked <= 0 || lower <= higher.size())
+        return nothing;
     const std::string but =
-        all.higher.empty() ? "" : fmt::format("  larger: {}\n", fmt::join(all.higher, "; "));
+        higher.empty() ? "" : fmt::format("  larger: {}\n", fmt::join(higher, "; "));
     return fmt::format(" buys\n  {}\n{}{}", name_of(*more), error_table(*more), but);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/laboratory.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"

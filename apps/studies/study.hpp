@@ -110,10 +110,6 @@ struct SeededRun {
 std::vector<std::optional<nlohmann::ordered_json>>
 summaries_of_runs(const StudyRequest& request, std::span<const SeededRun> wanted);
 
-/// The summary of one.
-std::optional<nlohmann::ordered_json> summary_of_run(const StudyRequest& request,
-                                                     const StudyRun& run, std::int64_t seed);
-
 /// Quantity in which errors are measured.
 struct StudyQuantity {
     std::string name;

@@ -222,12 +222,12 @@ struct IsostasyRun {
 std::optional<IsostasyRun> make_run(const StudyRequest& request, const Scene& scene,
                                     const IsostasyPlan& plan, const Fill& fill, double thickness,
                                     std::int64_t seed) {
-    const StudyRun run = run_of(plan, scene, fill, thickness);
-    auto summary = summary_of_run(request, run, seed);
+    const SeededRun alone[]{{run_of(plan, scene, fill, thickness), seed}};
+    auto summary = summaries_of_runs(request, alone)[0];
     if (!summary)
         return std::nullopt;
     return IsostasyRun{fill, seed, std::move(*summary), plate_of(scene, thickness),
-                       last_window(folder_of_run(request, run, seed))};
+                       last_window(folder_of_run(request, alone[0].run, seed))};
 }
 
 constexpr const char* csv_head = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"

@@ -138,23 +138,15 @@ struct Squeeze {
 
     RigidBase base(bool moves) const {
         const double high = 2.0 * radius * rows, push = shortening * length();
+        const double right = length() - radius - (moves ? 0.0 : push);
         RigidBase b;
         b.material = material;
         b.surfaces = {{"left", {line({-radius, high}, {-radius, -high})}, 0.0, 0.0, {}},
-                      {"right",
-                       {line({length() - radius, -high}, {length() - radius, high})},
-                       0.0,
-                       0.0,
-                       {-1.0, 0.0}}};
-        if (moves)
+                      {"right", {line({right, -high}, {right, high})}, 0.0, 0.0, {}}};
+        if (moves) {
+            b.surfaces[1].translation = {-1.0, 0.0};
             b.motion = {push / time, 0.0};
-        else
-            b.surfaces[1] = {
-                "right",
-                {line({length() - radius - push, -high}, {length() - radius - push, high})},
-                0.0,
-                0.0,
-                {}};
+        }
         return b;
     }
 

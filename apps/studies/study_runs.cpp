@@ -192,12 +192,6 @@ std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
     return summaries;
 }
 
-std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& run,
-                                   std::int64_t seed) {
-    const SeededRun alone[]{{run, seed}};
-    return summaries_of_runs(request, alone)[0];
-}
-
 void sweep_runs(const StudyRequest& request, const std::string& method,
                 const std::vector<StudyRun>& runs, const std::vector<StudyQuantity>& quantities,
                 StudyResult& result) {

@@ -256,9 +256,8 @@ std::string explain(const Scene& scene, EffectList list) {
         "    footwall and on the detachment, {} kg/m3 at the base\n"
         "    {}\n",
         base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
-        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3,
-        base.update_interval, base.bending.crust_density,
-        base.bending.mantle_density - base.bending.crust_density,
+        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3, base.update_interval,
+        base.bending.crust_density, base.bending.mantle_density - base.bending.crust_density,
         base.bending.infill_density > 0.0
             ? fmt::format("infill of {} kg/m3 on the footwall's surface: {} kg/m3 there, where it "
                           "sinks and\n    where it rises",

@@ -102,7 +102,8 @@ void add_chance(SweepEffect& effect, const Variance& variance, double square_of_
     effect.margin_95 = error * student_quantile(0.95, variance.degrees_of_freedom);
 }
 
-bool is_clear(const SweepEffect& effect) { return effect.p && *effect.p < clear_p; }
+/// Whether chance alone gives an effect like that in fewer than one of twenty sweeps.
+bool is_clear(const SweepEffect& effect) { return effect.p && *effect.p < 0.05; }
 
 bool is_of_two(const SweepEffect& effect) { return effect.term.find(':') != std::string::npos; }
 

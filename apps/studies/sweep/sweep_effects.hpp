@@ -49,9 +49,6 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
                                     std::span<const std::size_t> point, std::span<const int> seed,
                                     std::span<const std::optional<double>> values);
 
-/// An effect is clear where chance alone gives one like it in fewer than one of twenty sweeps.
-inline constexpr double clear_p = 0.05;
-
 /// effects.csv: measure, term, effect, standard_error, degrees_of_freedom, p, low_95, high_95; from
 /// standard_error on empty where nothing is known of chance.
 std::string effects_csv(std::span<const SweepEffect> effects);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -130,61 +131,47 @@ std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepPara
     }
 }
 
-/// Refuses the last value where an earlier one makes the same run.
-/// @param made  scenes by value
-void check_new(const Entry& entry, const SweepParameter& parameter,
-               const std::vector<std::string>& made) {
-    for (std::size_t k = 0; k + 1 < made.size(); ++k) {
-        const bool is_again = parameter.values[k].text == parameter.values.back().text;
-        if (made[k] == made.back())
-            fail(entry, is_again ? std::string("stands twice; leave one out")
-                                 : fmt::format("makes the same run as {}: {} has no effect in this "
-                                               "scene; leave one out",
-                                               parameter.values[k].text, parameter.name));
-    }
-}
-
 SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     SweepParameter parameter = varied_table().read(entry);
     check_parameter(entry, plan, parameter.name);
     const toml::table& table = *entry.node.as_table();
-    const toml::node* const values = table.get("values");
-    const toml::node* const range = table.get("range");
-    if (!values == !range)
+    const bool is_range = table.contains("range");
+    if (is_range == table.contains("values"))
         fail(entry, "needs either values or range");
-    if (values) {
-        const Entry list{*values, entry.path + ".values"};
-        std::vector<std::string> made;
-        for (const Entry& element : elements(list, "an array of values")) {
-            parameter.values.push_back(value_of(element));
-            if (plan.design == SweepDesign::list) // its values need not make a scene alone
-                continue;
-            made.push_back(try_value(plan, element, parameter, parameter.values.back()));
-            check_new(element, parameter, made);
-        }
-        if (parameter.values.empty())
-            fail(list, "is empty, needs at least one value");
-        return parameter;
+    const char* const key = is_range ? "range" : "values";
+    const Entry list{*table.get(key), fmt::format("{}.{}", entry.path, key)};
+    if (is_range && plan.design != SweepDesign::latin_hypercube)
+        fail(list, "is for design = \"latin-hypercube\"; a grid or a list needs values");
+    const std::vector<Entry> given =
+        elements(list, is_range ? "[least, greatest]" : "an array of values");
+    if (is_range && given.size() != 2)
+        fail(list, "needs two numbers, [least, greatest]");
+    if (given.empty())
+        fail(list, "is empty, needs at least one value");
+    std::ranges::transform(given, std::back_inserter(parameter.values), value_of);
+    if (is_range) {
+        const auto least = parameter.values[0].number, greatest = parameter.values[1].number;
+        if (!least || !greatest || !(*least < *greatest))
+            fail(list, "needs two numbers, the first less than the second");
+        parameter.range = {*least, *greatest};
     }
-    const Entry pair{*range, entry.path + ".range"};
-    if (plan.design != SweepDesign::latin_hypercube)
-        fail(pair, "is for design = \"latin-hypercube\"; a grid or a list needs values");
-    const std::vector<Entry> ends = elements(pair, "[least, greatest]");
-    if (ends.size() != 2)
-        fail(pair, "needs two numbers, [least, greatest]");
-    const auto least = value_of(ends[0]).number, greatest = value_of(ends[1]).number;
-    if (!least || !greatest || !(*least < *greatest))
-        fail(pair, "needs two numbers, the first less than the second");
-    parameter.range = {*least, *greatest};
-    parameter.values = {value_of(ends[0]), value_of(ends[1])};
-    std::vector<std::string> made;
-    for (std::size_t k = 0; k < 2; ++k) {
-        made.push_back(try_value(plan, ends[k], parameter, parameter.values[k]));
-        check_new(ends[k], parameter, made);
+    std::map<std::string, std::string> known; // by the scene that they make; of a list none need do
+    for (std::size_t k = 0; k < given.size() && plan.design != SweepDesign::list; ++k) {
+        const std::string& text = parameter.values[k].text;
+        const auto [earlier, is_new] =
+            known.emplace(try_value(plan, given[k], parameter, parameter.values[k]), text);
+        if (!is_new)
+            fail(given[k], earlier->second == text
+                               ? std::string("stands twice; leave one out")
+                               : fmt::format("makes the same run as {}: {} has no effect in this "
+                                             "scene; leave one out",
+                                             earlier->second, parameter.name));
     }
-    try_value(plan, pair, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
-              "; a range takes values between its ends, values = [...] only those listed");
-    parameter.values.clear();
+    if (is_range) {
+        try_value(plan, list, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
+                  "; a range takes values between its ends, values = [...] only those listed");
+        parameter.values.clear();
+    }
     return parameter;
 }
 

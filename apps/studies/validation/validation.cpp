@@ -58,10 +58,6 @@ Origin finished_run(const fs::path& folder, const std::string& accuracy, int see
             std::string(measures_hash)};
 }
 
-fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
-    return request.output.empty() ? runs / "validation.md" : request.output;
-}
-
 ValidationPlan plan_of(const ValidationRequest& request) {
     return load_validation_plan(request.plan.empty() ? resource_folder() / "studies/validation.toml"
                                                      : request.plan);
@@ -125,18 +121,18 @@ public:
         : request_(request),
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
-          document_(document_of(request, runs_)), names_(chosen_runs(plan, request.only)),
-          seeds_(seeds_of_call(request, plan)), findings_{plan,
-                                                          request.plan.empty()
-                                                              ? "apps/studies/validation.toml"
-                                                              : request.plan.string(),
-                                                          {},
-                                                          {},
-                                                          store_,
-                                                          request.accuracy,
-                                                          seeds_of_document(request, plan),
-                                                          document_.parent_path() /
-                                                              document_.stem()} {
+          document_(request.output.empty() ? runs_ / "validation.md" : request.output),
+          names_(chosen_runs(plan, request.only)),
+          seeds_(seeds_of_call(request, plan)), findings_{.plan = plan,
+                                                          .plan_name =
+                                                              request.plan.empty()
+                                                                  ? "apps/studies/validation.toml"
+                                                                  : request.plan.string(),
+                                                          .store = store_,
+                                                          .accuracy = request.accuracy,
+                                                          .seeds = seeds_of_document(request, plan),
+                                                          .beside = document_.parent_path() /
+                                                                    document_.stem()} {
         require_own_files();
         make_folder(findings_.beside);
         lock_.emplace(findings_.beside);

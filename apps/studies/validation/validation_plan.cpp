@@ -373,9 +373,7 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
         v.no_case += !value;
         v.met += value && e.meets(*value);
     }
-    const ProbabilityLimits limits = probability_limits(v.met, v.of);
-    v.lower = limits.lower;
-    v.upper = limits.upper;
+    const auto [lower, upper] = probability_limits(v.met, v.of);
     const bool often = e.kind == Expectation::Kind::faults;
     if (values.empty())
         v.name = no_run;
@@ -384,13 +382,13 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
     else if (v.of == 0)
         v.name = no_case;
     else if (often)
-        v.name = v.lower > 0.5 ? shown : v.upper < 0.5 ? not_shown : open;
+        v.name = lower > 0.5 ? shown : upper < 0.5 ? not_shown : open;
     else
         v.name = v.met == v.of ? met : missed;
     v.text = name_of(v.name);
     if (e.is_judged() && v.of > 0) {
         v.text += fmt::format(" ({} of {}", v.met, v.of);
-        v.text += often ? fmt::format(": {:.2f} to {:.2f})", v.lower, v.upper) : ")";
+        v.text += often ? fmt::format(": {:.2f} to {:.2f})", lower, upper) : ")";
         if (v.no_case > 0)
             v.text += fmt::format(", {} no case", v.no_case);
     }
