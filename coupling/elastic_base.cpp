@@ -77,31 +77,10 @@ double node_stiffness(const Material& base, std::span<const Material> discs, dou
 ElasticBase::ElasticBase(Interface interface, const CouplingParameters& parameters)
     : interface_(std::move(interface)), parameters_(parameters),
       modes_(find_modes(interface_.compliance, interface_.unknowns(),
-                        // Nodes that move one by one need all stiffness.
-                        parameters.scheme == CouplingScheme::modal
-                            ? static_cast<std::size_t>(parameters.modes)
-                            : 0)),
+                        static_cast<std::size_t>(parameters.modes))),
       modal_load_(modes_.count()), velocity_(interface_.unknowns()) {
     assert(parameters.interval > 0);
     interval = parameters.interval;
-    if (parameters.scheme == CouplingScheme::lumped)
-        find_stiffness();
-}
-
-/// S = Q diag(1 / c) Q^T and the sums of its rows' sizes, for scheme lumped.
-void ElasticBase::find_stiffness() {
-    const std::size_t n = modes_.unknowns, kept = modes_.count();
-    std::vector<double> scaled(kept), row(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < kept; ++k)
-            scaled[k] = modes_.by_unknown[i * kept + k] / modes_.compliance[k];
-        add_rows(modes_.by_mode, scaled, row);
-        stiffness_.insert(stiffness_.end(), row.begin(), row.end());
-        double sum = 0.0;
-        for (const double s : row)
-            sum += std::abs(s);
-        lumped_stiffness_.push_back(sum);
-    }
 }
 
 void ElasticBase::attach(State& state) const {
@@ -267,11 +246,7 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     book(state, discs);
     load_ = std::move(discs.forces);
     add_footwall_loads(state, load_);
-    const double step = cycles * clock.time_step;
-    if (parameters_.scheme == CouplingScheme::modal)
-        move_modes(state, step);
-    else
-        move_lumped(state, step);
+    move_modes(state, cycles * clock.time_step);
     seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
@@ -308,26 +283,6 @@ void ElasticBase::move_modes(State& state, double step) {
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         nodes.vx[k] = velocity_[2 * k];
         nodes.vy[k] = velocity_[2 * k + 1];
-    }
-}
-
-/// Moves every node, whose mass its row of the stiffness bounds.
-void ElasticBase::move_lumped(State& state, double step) {
-    const BaseNodeColumns nodes = base_node_columns(state);
-    std::vector<double> u(modes_.unknowns);
-    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        u[2 * k] = nodes.ux[k];
-        u[2 * k + 1] = nodes.uy[k];
-    }
-    add_rows(stiffness_, u, velocity_); // symmetric
-    const auto accelerate = [&](double& v, std::size_t i) {
-        const double mass = parameters_.mass_factor *
-                            (lumped_stiffness_[i] + parameters_.contact_stiffness) * step * step;
-        v += damped(load_[i] - velocity_[i], v, parameters_.damping) / mass * step;
-    };
-    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        accelerate(nodes.vx[k], 2 * k);
-        accelerate(nodes.vy[k], 2 * k + 1);
     }
 }
 

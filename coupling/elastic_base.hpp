@@ -11,16 +11,9 @@
 
 namespace listric::coupling {
 
-/// How base and discs advance together.
-enum class CouplingScheme {
-    modal, ///< the base's modes have a mass and move with the discs
-    lumped ///< its nodes have
-};
-
 struct CouplingParameters {
-    CouplingScheme scheme = CouplingScheme::modal;
     int interval = 5;           ///< cycles between updates of the base
-    int modes = 0;              ///< softest modes that scheme modal moves; 0: all
+    int modes = 0;              ///< softest modes that move; 0: all
     double mass_factor = 0.6;   ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
     double damping = 0.7;       ///< local, of every mode
     double swing_damping = 0.1; ///< share of the critical damping of a mode that carries the discs
@@ -109,18 +102,15 @@ private:
     /// Adds a load of the discs, the effects' loads and the displacement to the window's sums.
     void book(dem::State& state, const DiscLoad& load) const;
 
-    void find_stiffness();
     double flat_start() const;
     double carried_mass(const dem::State& state) const;
     void move_modes(dem::State& state, double step);
-    void move_lumped(dem::State& state, double step);
 
     Interface interface_;
     CouplingParameters parameters_;
     Modes modes_;
-    std::vector<double> stiffness_, lumped_stiffness_; ///< of scheme lumped: S by rows, sums |S|
-    std::vector<double> load_;                         ///< that moves the base: discs and effects
-    std::vector<double> modal_load_, velocity_;        // scratch
+    std::vector<double> load_;                  ///< that moves the base: discs and effects
+    std::vector<double> modal_load_, velocity_; // scratch
 };
 
 } // namespace listric::coupling

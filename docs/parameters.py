@@ -78,7 +78,6 @@ EXPLAINED = {
     "elastic_base.mantle_density_kg_per_m3": "theory/elastic-base.md#isostasy",
     "elastic_base.infill_density_kg_per_m3": "theory/elastic-base.md#isostasy",
     "elastic_base.cell_size_m": "cost-of-accuracy.md#the-elastic-base",
-    "elastic_base.scheme": "theory/elastic-base.md#coupling",
     "elastic_base.update_interval_cycles": "cost-of-accuracy.md#coupling",
     "elastic_base.modes": "cost-of-accuracy.md#coupling",
     "elastic_base.mass_factor": "theory/elastic-base.md#coupling",

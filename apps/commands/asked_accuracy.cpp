@@ -5,7 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/accuracy.hpp"
-#include "apps/studies/sweep/student.hpp"
+#include "apps/studies/sweep/sweep_effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/machine/shell.hpp"
 #include "apps/support/words/number.hpp"
@@ -19,6 +19,7 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 namespace listric {
@@ -40,16 +41,14 @@ struct Unit {
     double factor;
 };
 
-/// A number with its unit. Throws UsageError with what is allowed.
-double with_unit(const std::string& text, std::span<const Unit> units,
-                 const std::function<std::string()>& refusal) {
+/// A number above 0 with its unit; none: the text is no such number.
+std::optional<double> with_unit(std::string_view text, std::span<const Unit> units) {
     for (const Unit& unit : units)
         if (text.size() > unit.name.size() && text.ends_with(unit.name))
-            if (const auto number =
-                    parse_number(std::string_view(text).substr(0, text.size() - unit.name.size()));
+            if (const auto number = parse_number(text.substr(0, text.size() - unit.name.size()));
                 number && *number > 0.0 && *number * unit.factor < 1e15)
                 return *number * unit.factor;
-    throw UsageError(refusal());
+    return std::nullopt;
 }
 
 /// Units in which a measure's error may be asked; the first that ends the text counts.
@@ -86,17 +85,13 @@ void add_targets(std::vector<ErrorTarget>& targets, const std::string& word,
             continue;
         is_known = true;
         const bool is_share = bound.ends_with('%');
-        const std::vector<Unit> units =
-            is_share ? std::vector<Unit>{{"%", 0.01}} : units_of(measure.key);
-        targets.push_back({measure.key,
-                           with_unit(bound, units,
-                                     [&] {
-                                         return fmt::format("--error {}={}: a number above 0 with "
-                                                            "one of these units: {}",
-                                                            shown_start(word), shown_start(bound),
-                                                            allowed_units(measure.key));
-                                     }),
-                           is_share});
+        const auto most =
+            with_unit(bound, is_share ? std::vector<Unit>{{"%", 0.01}} : units_of(measure.key));
+        if (!most)
+            throw UsageError(
+                fmt::format("--error {}={}: a number above 0 with one of these units: {}",
+                            shown_start(word), shown_start(bound), allowed_units(measure.key)));
+        targets.push_back({measure.key, *most, is_share});
     }
     if (is_known)
         return;
@@ -107,24 +102,15 @@ void add_targets(std::vector<ErrorTarget>& targets, const std::string& word,
                                  fmt::join(words, ", ")));
 }
 
-/// Target in the unit of the measure.
-std::optional<double> bound_of(const ErrorTarget& target, const KnownError& error) {
-    if (!target.is_share)
-        return target.most;
-    return error.mean == 0.0 ? std::nullopt : std::optional(target.most * std::abs(error.mean));
-}
-
 const KnownError& error_of(const AccuracyChoice& choice, const std::string& key) {
     return *std::ranges::find(choice.errors, key, &KnownError::key);
 }
 
-bool meets(const AccuracyChoice& choice, std::span<const ErrorTarget> targets, int seeds) {
-    return std::ranges::all_of(targets, [&](const ErrorTarget& target) {
-        const KnownError& error = error_of(choice, target.key);
-        const auto promised = promised_error(error, seeds);
-        const auto bound = bound_of(target, error);
-        return promised && bound && *promised <= *bound;
-    });
+bool meets(const AccuracyChoice& choice, const ErrorTarget& target, int seeds) {
+    const KnownError& error = error_of(choice, target.key);
+    const auto promised = promised_error(error, seeds);
+    const double scale = target.is_share ? std::abs(error.mean) : 1.0; // 0: the mean is not known
+    return promised && scale > 0.0 && *promised <= target.most * scale;
 }
 
 AccuracyChoice with_seeds(AccuracyChoice choice, int seeds) {
@@ -166,33 +152,24 @@ std::string call_of(const AccuracyChoice& choice, const SceneRequest& request) {
     return request.seed ? fmt::format("{} --seed {}", call, *request.seed) : call;
 }
 
-std::string part_text(const std::string& key, const std::optional<archive::ErrorPart>& part) {
-    return part ? archive::error_text(key, part->value) : "unknown";
-}
-
 /// Errors of a choice, a line for each measure, and where they come from.
 std::string error_table(const AccuracyChoice& choice) {
     std::string text = fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", "error of", "below",
                                    "resolution", "speed", "seeds, ±");
     std::vector<std::string> sources;
-    const auto note = [&](const std::optional<archive::ErrorPart>& part) {
-        if (!part)
-            return;
-        const std::string source = fmt::format("{}: {}", part->record, part->against);
-        if (std::ranges::count(sources, source) == 0)
-            sources.push_back(source);
-    };
     for (const HeadlineMeasure& measure : archive::headline_measures()) {
         const KnownError& error = error_of(choice, measure.key);
         const auto promised = promised_error(error, choice.seeds);
-        text +=
-            fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", archive::label_of(measure.key),
-                        promised ? archive::error_text(measure.key, *promised) : "unknown",
-                        part_text(measure.key, error.resolution),
-                        part_text(measure.key, error.speed), part_text(measure.key, error.spread));
-        note(error.resolution);
-        note(error.speed);
-        note(error.spread);
+        text += fmt::format("  {:<50} {:>9}", archive::label_of(measure.key),
+                            promised ? archive::error_text(measure.key, *promised) : "unknown");
+        for (const auto& part : {error.resolution, error.speed, error.spread}) {
+            text += fmt::format(" {:>12}",
+                                part ? archive::error_text(measure.key, part->value) : "unknown");
+            if (const auto source = part ? fmt::format("{}: {}", part->record, part->against) : "";
+                part && std::ranges::count(sources, source) == 0)
+                sources.push_back(source);
+        }
+        text += '\n';
     }
     text += fmt::format("  below: with a probability of {:.0f} %, for the mean over the seeds\n",
                         100.0 * confidence);
@@ -205,11 +182,10 @@ std::string error_table(const AccuracyChoice& choice) {
 std::string missed(const AccuracyChoice& choice, std::span<const ErrorTarget> targets) {
     std::vector<std::string> parts;
     for (const ErrorTarget& target : targets) {
+        if (meets(choice, target, most_seeds))
+            continue;
         const KnownError& error = error_of(choice, target.key);
         const auto promised = promised_error(error, most_seeds);
-        const auto bound = bound_of(target, error);
-        if (promised && bound && *promised <= *bound)
-            continue;
         std::vector<std::string> unknown;
         for (const auto& [part, name] :
              {std::pair(&error.resolution, "resolution"), std::pair(&error.speed, "speed"),
@@ -224,105 +200,88 @@ std::string missed(const AccuracyChoice& choice, std::span<const ErrorTarget> ta
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// The choices of a call, or why there are none.
-struct RecordedWays {
-    std::vector<AccuracyChoice> all;
-    std::string objection;
+/// Nothing recorded supports an answer; what() says why.
+struct NoAnswer : std::runtime_error {
+    using std::runtime_error::runtime_error;
 };
 
-RecordedWays recorded_ways(const SceneRequest& request, int threads) {
+/// The choices of a call. Throws NoAnswer.
+std::vector<AccuracyChoice> recorded_ways(const SceneRequest& request, int threads) {
     const Scene scene = load_scene(request);
-    if (const std::string parameter = archive::departs_from_record(scene); parameter == "name")
-        return {{}, fmt::format("runs of {} are not recorded", scene.name)};
-    else if (!parameter.empty())
-        return {
-            {},
-            fmt::format("its {} is not the one of the recorded runs of {}", parameter, scene.name)};
+    const std::string parameter = archive::departs_from_record(scene);
+    if (parameter == "name")
+        throw NoAnswer(fmt::format("runs of {} are not recorded", scene.name));
+    if (!parameter.empty())
+        throw NoAnswer(
+            fmt::format("its {} is not the one of the recorded runs of {}", parameter, scene.name));
     const bool accounted = make_parts(scene).accounts_energy;
     const auto seconds = [&](const Scene& one) {
         // A tenth of a second each: sizes differ by far more than what that misses.
         return predict(one, measure_speed(estimated_discs(one), threads, 0.1, accounted)).seconds;
     };
-    RecordedWays choices{recorded_choices(archive::recorded_runs(), request, seconds), ""};
-    if (choices.all.empty())
-        choices.objection = fmt::format("no run of {} to {:g} km of extension is recorded",
-                                        scene.name, scene.extension.distance / 1e3);
+    auto choices = recorded_choices(archive::recorded_runs(), request, seconds);
+    if (choices.empty())
+        throw NoAnswer(fmt::format("no run of {} to {:g} km of extension is recorded", scene.name,
+                                   scene.extension.distance / 1e3));
     return choices;
 }
 
-/// Labels of the measures whose promised errors another choice lowers, and of those that it raises,
-/// by a twentieth or more: less is chance.
-struct Exchange {
-    std::vector<std::string_view> lower, higher;
-};
-
-/// @param targets  measures that count; none: all
-Exchange exchange(const AccuracyChoice& now, const AccuracyChoice& other,
-                  std::span<const ErrorTarget> targets) {
-    Exchange found;
-    for (const KnownError& error : now.errors) {
-        const auto before = promised_error(error, now.seeds);
-        const auto after = promised_error(error_of(other, error.key), other.seeds);
-        if (!before || !after ||
-            (!targets.empty() && std::ranges::count(targets, error.key, &ErrorTarget::key) == 0))
-            continue;
-        if (*after < 0.95 * *before)
-            found.lower.push_back(archive::label_of(error.key));
-        else if (*after > 1.05 * *before)
-            found.higher.push_back(archive::label_of(error.key));
-    }
-    return found;
-}
-
 /// Another choice that more time brings, if it lowers what is asked for, and of all errors more
-/// than it raises.
+/// than it raises: by a twentieth or more, less is chance.
+/// @param targets  measures that count; none: all
 std::string bought(const AccuracyChoice& now, const std::optional<AccuracyChoice>& more,
                    std::span<const ErrorTarget> targets) {
-    const Exchange all = more ? exchange(now, *more, {}) : Exchange();
-    const Exchange asked = more ? exchange(now, *more, targets) : Exchange();
-    if (asked.lower.empty() || asked.lower.size() <= asked.higher.size() ||
-        all.lower.size() <= all.higher.size())
-        return " buys no smaller errors by what is recorded\n";
+    constexpr const char* nothing = " buys no smaller errors by what is recorded\n";
+    if (!more)
+        return nothing;
+    std::size_t lower = 0;
+    int lower_of_asked = 0; // less those that are higher
+    std::vector<std::string_view> higher;
+    for (const KnownError& error : now.errors) {
+        const auto before = promised_error(error, now.seeds);
+        const auto after = promised_error(error_of(*more, error.key), more->seeds);
+        if (!before || !after)
+            continue;
+        const bool is_asked =
+            targets.empty() || std::ranges::count(targets, error.key, &ErrorTarget::key) > 0;
+        if (*after < 0.95 * *before) {
+            ++lower;
+            lower_of_asked += is_asked;
+        } else if (*after > 1.05 * *before) {
+            higher.push_back(archive::label_of(error.key));
+            lower_of_asked -= is_asked;
+        }
+    }
+    if (lower_of_asked <= 0 || lower <= higher.size())
+        return nothing;
     const std::string but =
-        all.higher.empty() ? "" : fmt::format("  larger: {}\n", fmt::join(all.higher, "; "));
+        higher.empty() ? "" : fmt::format("  larger: {}\n", fmt::join(higher, "; "));
     return fmt::format(" buys\n  {}\n{}{}", name_of(*more), error_table(*more), but);
 }
 
-std::string unsupported(const RecordedWays& choices, std::span<const ErrorTarget> targets) {
-    std::string text;
-    for (const AccuracyChoice& choice : choices.all)
-        text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level, choice.speed,
-                            most_seeds, missed(choice, targets));
-    return text;
-}
-
-/// The choice that a call asks for; none, and why.
-struct AskedAnswer {
-    std::optional<AccuracyChoice> choice;
-    std::string objection;
-};
-
-AskedAnswer answer_to(const AskedAccuracy& asked, const RecordedWays& choices, int seeds_of_time) {
-    if (!choices.objection.empty())
-        return {{}, choices.objection};
+/// The choice that a call asks for. Throws NoAnswer.
+AccuracyChoice answer_to(const AskedAccuracy& asked, std::span<const AccuracyChoice> choices,
+                         int seeds_of_time) {
     const double time = asked.within.empty() ? 0.0 : parse_duration("--within", asked.within);
     if (asked.error.empty()) {
-        auto best = best_choice(choices.all, time);
+        const auto best = best_choice(choices, time);
         if (!best)
-            return {{},
-                    fmt::format("the quickest recorded way takes {}",
-                                duration(choices.all.front().seconds))};
-        return {with_seeds(*best, std::min(best->seeds, seeds_of_time)), ""};
+            throw NoAnswer(fmt::format("the quickest recorded way takes {}",
+                                       duration(choices.front().seconds)));
+        return with_seeds(*best, std::min(best->seeds, seeds_of_time));
     }
     const std::vector<ErrorTarget> targets = parse_error_targets(asked.error);
-    auto cheapest = cheapest_choice(choices.all, targets);
-    if (!cheapest)
-        return {
-            {},
-            fmt::format("what is recorded stays short of it:\n{}", unsupported(choices, targets))};
+    const auto cheapest = cheapest_choice(choices, targets);
+    if (!cheapest) {
+        std::string text = "what is recorded stays short of it:\n";
+        for (const AccuracyChoice& choice : choices)
+            text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level, choice.speed,
+                                most_seeds, missed(choice, targets));
+        throw NoAnswer(text);
+    }
     if (time > 0.0 && cheapest->seconds > time)
-        return {{}, fmt::format("it takes {}", name_of(*cheapest))};
-    return {cheapest, ""};
+        throw NoAnswer(fmt::format("it takes {}", name_of(*cheapest)));
+    return *cheapest;
 }
 
 void refuse_level(const SceneRequest& request) {
@@ -380,10 +339,11 @@ void add_asked_accuracy(CLI::App& command, AskedAccuracy& asked) {
 
 double parse_duration(const std::string& option, const std::string& text) {
     static constexpr Unit units[] = {{"min", 60.0}, {"s", 1.0}, {"h", 3600.0}, {"d", 86400.0}};
-    return with_unit(text, units, [&] {
-        return fmt::format("{} {}: a time above 0 with its unit, such as 90s, 10min, 2h or 1d",
-                           option, shown_start(text));
-    });
+    if (const auto seconds = with_unit(text, units))
+        return *seconds;
+    throw UsageError(
+        fmt::format("{} {}: a time above 0 with its unit, such as 90s, 10min, 2h or 1d", option,
+                    shown_start(text)));
 }
 
 std::vector<ErrorTarget> parse_error_targets(const std::string& text) {
@@ -452,7 +412,9 @@ std::optional<AccuracyChoice> cheapest_choice(std::span<const AccuracyChoice> ch
     std::optional<AccuracyChoice> cheapest;
     for (const AccuracyChoice& choice : choices)
         for (int seeds = 1; seeds <= most_seeds; ++seeds) {
-            if (!meets(choice, targets, seeds))
+            if (!std::ranges::all_of(targets, [&](const ErrorTarget& target) {
+                    return meets(choice, target, seeds);
+                }))
                 continue;
             AccuracyChoice met = with_seeds(choice, seeds);
             if (!cheapest || met.seconds < cheapest->seconds)
@@ -480,37 +442,29 @@ std::optional<AccuracyChoice> best_choice(std::span<const AccuracyChoice> choice
     return with_seeds(*best, std::max(1, fit));
 }
 
-std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& request, int threads) {
+std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& request,
+                          int threads) try {
     refuse_level(request);
-    if (!asked.error.empty()) // whatever is recorded, a call that says nothing is refused
-        parse_error_targets(asked.error);
-    if (!asked.within.empty())
-        parse_duration("--within", asked.within);
-    const RecordedWays choices = recorded_ways(request, threads);
-    const AskedAnswer answer = answer_to(asked, choices, most_seeds);
-    if (!answer.choice)
-        return fmt::format("{} of {}: nothing recorded supports an answer: {}\n", asked_text(asked),
-                           request.scene, answer.objection);
-    std::string text = fmt::format(
-        "{} of {}, by recorded runs\n  {} on this machine, {} thread{}\n  {}\n{}",
-        asked_text(asked), request.scene, name_of(*answer.choice), threads, threads == 1 ? "" : "s",
-        call_of(*answer.choice, request), error_table(*answer.choice));
-    const double twice = 2.0 * (asked.error.empty() ? parse_duration("--within", asked.within)
-                                                    : answer.choice->seconds);
+    // Whatever is recorded, a call that says nothing is refused.
     const auto targets =
         asked.error.empty() ? std::vector<ErrorTarget>() : parse_error_targets(asked.error);
-    return text + fmt::format("\ntwice the time ({}){}", duration(twice),
-                              bought(*answer.choice, best_choice(choices.all, twice), targets));
+    const double time = asked.within.empty() ? 0.0 : parse_duration("--within", asked.within);
+    const std::vector<AccuracyChoice> choices = recorded_ways(request, threads);
+    const AccuracyChoice choice = answer_to(asked, choices, most_seeds);
+    const double twice = 2.0 * (asked.error.empty() ? time : choice.seconds);
+    return fmt::format("{} of {}, by recorded runs\n  {} on this machine, {} thread{}\n  {}\n{}"
+                       "\ntwice the time ({}){}",
+                       asked_text(asked), request.scene, name_of(choice), threads,
+                       threads == 1 ? "" : "s", call_of(choice, request), error_table(choice),
+                       duration(twice), bought(choice, best_choice(choices, twice), targets));
+} catch (const NoAnswer& none) {
+    return fmt::format("{} of {}: nothing recorded supports an answer: {}\n", asked_text(asked),
+                       request.scene, none.what());
 }
 
-std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int threads) {
+std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int threads) try {
     refuse_level(request);
-    const RecordedWays choices = recorded_ways(request, threads);
-    const AskedAnswer answer = answer_to(asked, choices, 1);
-    if (!answer.choice)
-        throw UsageError(fmt::format("{}: nothing recorded supports an answer: {}",
-                                     asked_text(asked), one_line(answer.objection)));
-    const AccuracyChoice& choice = *answer.choice;
+    const AccuracyChoice choice = answer_to(asked, recorded_ways(request, threads), 1);
     std::string text = fmt::format("{}: {}", asked_text(asked), name_of(choice));
     if (choice.seeds > 1) {
         SceneRequest others = request;
@@ -520,6 +474,9 @@ std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int t
     }
     request = request_of(std::move(request), choice.level, choice.speed);
     return text;
+} catch (const NoAnswer& none) {
+    throw UsageError(fmt::format("{}: nothing recorded supports an answer: {}", asked_text(asked),
+                                 one_line(none.what())));
 }
 
 } // namespace listric

@@ -1,6 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/laboratory/calibration/calibration.hpp"
+#include "apps/laboratory/laboratory.hpp"
 
 #include <memory>
 

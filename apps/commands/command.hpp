@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/commands/help/help.hpp"
+#include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
 
@@ -110,6 +111,9 @@ void add_output(CLI::App& command, Path& output, const char* otherwise,
 
 /// -q, --quiet
 void add_quiet(CLI::App& command, bool& quiet);
+
+/// --jobs, --threads and --output of a call that makes many runs: as many as there are cores.
+void add_many_runs(CLI::App& command, ManyRuns& request, const char* otherwise);
 
 /// SCENE and what changes it.
 void add_scene(CLI::App& command, SceneRequest& request);

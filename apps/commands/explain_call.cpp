@@ -2,7 +2,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/text.hpp"

@@ -1,4 +1,4 @@
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 
 #include "apps/commands/command.hpp"
 

@@ -135,6 +135,14 @@ void add_quiet(CLI::App& command, bool& quiet) {
     command.add_flag("-q,--quiet", quiet, "show no progress");
 }
 
+void add_many_runs(CLI::App& command, ManyRuns& request, const char* otherwise) {
+    add_count(command, "-j,--jobs", request.jobs, "runs at a time", 1, 1024)
+        ->default_str("cores over threads");
+    request.jobs = 0;
+    add_threads(command, request.threads)->default_str("1");
+    add_output(command, request.output, otherwise);
+}
+
 void add_scene(CLI::App& command, SceneRequest& request) {
     command.add_option("SCENE", request.scene, "name of a scene (listric scenes), or a file")
         ->type_name("SCENE")

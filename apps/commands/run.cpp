@@ -11,7 +11,7 @@
 #include "apps/run/ranks/rank_reports.hpp"
 #include "apps/run/ranks/ranked_run.hpp"
 #include "apps/scene/picks/rock_line.hpp"
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"

@@ -14,4 +14,10 @@ std::span<const std::string_view> laboratory_tests();
 /// the output folder. Throws UsageError, SceneError, NumericalFailure, StorageError, Interrupted.
 void run_laboratory(const LaboratoryRequest& request);
 
+/// Finds microproperties in the paper's sequence: stiffness, stiffness ratio, strengths, weakened
+/// rock. Writes NAME.toml (and NAME-weak.toml), history.json with every evaluation, which --resume
+/// reads back, and summary.json with the validation on seeds that the fit has not seen.
+/// Throws UsageError, NumericalFailure, StorageError, Interrupted: what was measured is kept.
+void run_calibration(const CalibrationRequest& request);
+
 } // namespace listric

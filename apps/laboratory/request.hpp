@@ -34,16 +34,31 @@ struct LaboratoryRequest {
     StopToken stop = {};
 };
 
-/// Refuses to replace results of another request than is asked for, and warns where those that are
-/// replaced are of another version, damaged, or of a request that is not recorded: "request" in
-/// summary.json. Throws UsageError.
-void require_same_request(const std::filesystem::path& output, const JsonObject& asked);
+/// Targets of a rock.
+struct CalibrationTargets {
+    double young = 50e9;    ///< plane strain, Pa
+    double poisson = 0.25;  ///< plane strain
+    double friction = 0.6;  ///< slope of the strength envelope in shear over normal stress
+    double cohesion = 10e6; ///< Pa
+    bool byerlee = false;   ///< Byerlee's law instead of friction and cohesion
+    std::optional<double> bulk_friction; ///< of the weakened rock in the shear box
 
-/// The version of the program, to be kept in a summary.
-std::string summary_version();
+    /// Throws UsageError if no discs can be such a rock.
+    void check() const;
+};
 
-/// Refuses to replace results of another material than is asked for. Throws UsageError.
-/// @param file  material.toml of the earlier results
-void require_same_material(const std::filesystem::path& file, const std::string& asked);
+/// A call of the calibration.
+struct CalibrationRequest {
+    CalibrationTargets targets = {};
+    std::string name = "calibrated"; ///< of the material files
+    std::int64_t discs = 1000;       ///< per sample
+    std::int64_t seed = 1;           ///< of the first sample used for the fit
+    int seeds = 3;                   ///< for the fit, and as many others for the validation
+    int threads = 1;
+    bool resume = false;
+    std::filesystem::path output = {}; ///< empty: out/calibrate-NAME
+    bool quiet = false;
+    StopToken stop = {};
+};
 
 } // namespace listric

@@ -6,6 +6,7 @@
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/files/file.hpp"
+#include "apps/support/machine/cores.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/text.hpp"
 #include "dem/cycle/cycle.hpp"
@@ -202,8 +203,21 @@ void tell_of_versions(std::span<const BatchRun> runs, std::span<const BatchEndin
 
 } // namespace
 
-std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
-                                   StopToken stop) {
+int ManyRuns::at_a_time() const { return jobs > 0 ? jobs : std::max(1, usable_cores() / threads); }
+
+RunOptions ManyRuns::options_of_run(fs::path folder, bool figures) const {
+    RunOptions options;
+    options.output = std::move(folder);
+    options.threads = threads;
+    options.quiet = quiet || at_a_time() > 1;
+    options.figures = figures;
+    options.report = false;
+    options.stop = stop;
+    return options;
+}
+
+std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, const ManyRuns& call, Log& log) {
+    const auto jobs = static_cast<std::size_t>(call.at_a_time());
     std::vector<BatchEnding> endings(runs.size());
     std::size_t next = 0, ended = 0;
     const auto end = [&](std::size_t k, BatchEnding ending) {
@@ -214,12 +228,12 @@ std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log
     Processes processes;
     bool stopping = false;
     while (next < runs.size() || processes.count() > 0) {
-        if (stop.requested() && !stopping) {
+        if (call.stop.requested() && !stopping) {
             stopping = true;
             next = runs.size();
             processes.stop();
         }
-        while (next < runs.size() && processes.count() < static_cast<std::size_t>(jobs)) {
+        while (next < runs.size() && processes.count() < jobs) {
             if (const auto known = known_ending(runs[next]))
                 end(next, *known);
             else
@@ -230,7 +244,7 @@ std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log
         processes.reap(
             [&](std::size_t k, int exit_code) { end(k, ending_of_process(runs[k], exit_code)); });
     }
-    stop.check();
+    call.stop.check();
     tell_of_versions(runs, endings, log);
     return endings;
 }

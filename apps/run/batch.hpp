@@ -10,6 +10,20 @@
 
 namespace listric {
 
+/// How a call makes many runs.
+struct ManyRuns {
+    std::filesystem::path output; ///< folder of its results; empty: the call's own
+    int jobs = 1;                 ///< runs at a time; 0: cores over threads
+    int threads = 1;              ///< of a run
+    bool quiet = false;
+    StopToken stop = {};
+
+    int at_a_time() const;
+
+    /// Options of one of the runs, which writes no report.
+    RunOptions options_of_run(std::filesystem::path folder, bool figures = false) const;
+};
+
 /// A run among many.
 struct BatchRun {
     std::string name; ///< for people
@@ -23,13 +37,12 @@ struct BatchEnding {
     std::string reason = {}; ///< first line of its error; empty if it is finished
 };
 
-/// Makes runs, each in a process of its own, `jobs` at a time, so that what ends one does not end
+/// Makes runs, each in a process of its own, so many at a time, so that what ends one does not end
 /// the others. What is finished is not made again; nor is what numerics have failed in, which
 /// failure.json in its folder says of the same scene: without that file, or of another scene, it
 /// is. Throws Interrupted, once the runs under way have saved, and StorageError. The same call goes
 /// on from there; if this process is killed the runs save and stop, too (Linux).
-std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
-                                   StopToken stop);
+std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, const ManyRuns& call, Log& log);
 
 /// Throws what the run has thrown, if it is not finished.
 void require_finished(const BatchRun& run, const BatchEnding& ending);

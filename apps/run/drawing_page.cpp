@@ -80,6 +80,7 @@ toml::array pieces_of(const dem::DetachmentParameters& detachment) {
 /// has as lines; its picture stays named.
 std::string scene_text(const Scene& scene, const fs::path& path, EffectList effects) {
     toml::table document = scenes.read(path);
+    take_out_former_keys(document, effects);
     make_names_absolute(document, path.parent_path(), effects);
     document.erase("picked_fault");
     if (toml::table* observed = document["observed"].as_table()) {

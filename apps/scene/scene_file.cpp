@@ -351,15 +351,6 @@ double take_picked_fault(Scene& scene, const SceneTable& table, const toml::tabl
     return source.shift_x;
 }
 
-void refuse_former_keys(const toml::table& document, EffectList effects) {
-    for (const Effect* effect : effects)
-        for (const FormerKey& former : effect->former) {
-            const std::string path = fmt::format("{}.{}", effect->name, former.key);
-            if (const toml::node* node = document.at_path(path).node())
-                fail({*node, path}, fmt::format("is no key any more, use {}", former.instead));
-        }
-}
-
 /// Reads what stands above the tables, and puts in the tables that are there, with defaults.
 void begin_scene(Scene& scene, const toml::table& document, const std::vector<SceneTable>& all) {
     for (const auto& [key, node] : document) {
@@ -456,13 +447,33 @@ toml::table merged_document(const SceneRequest& request, const fs::path& path) {
     return document;
 }
 
+void take_out_former_keys(toml::table& document, EffectList effects) {
+    for (const Effect* effect : effects)
+        for (const FormerKey& former : effect->former) {
+            const std::string path = fmt::format("{}.{}", effect->name, former.key);
+            const toml::node* const node = document.at_path(path).node();
+            if (!node)
+                continue;
+            const std::string word = node->value_or(std::string());
+            if (former.stays.empty())
+                fail({*node, path}, fmt::format("is no key any more, use {}", former.instead));
+            if (word != former.stays)
+                fail({*node, path},
+                     fmt::format("is no key any more{}, allowed: {}, which is done without it; "
+                                 "leave it out",
+                                 word.empty() ? "" : ", and " + quoted(word) + " is gone",
+                                 quoted(std::string(former.stays))));
+            document[effect->name].as_table()->erase(former.key);
+        }
+}
+
 Scene load_scene(const SceneRequest& request, EffectList effects) {
     const fs::path path = scenes.find(request.scene);
-    const toml::table document = merged_document(request, path);
+    toml::table document = merged_document(request, path);
+    take_out_former_keys(document, effects);
     const std::vector<SceneTable> all = scene_tables(effects);
     Scene scene;
     scene.name = path.stem().string();
-    refuse_former_keys(document, effects);
     begin_scene(scene, document, all);
     if (!request.is_record)
         check_name(scene, document, path);

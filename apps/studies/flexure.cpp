@@ -1,9 +1,10 @@
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/provenance.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/sections/paraview.hpp"
+#include "apps/run/options.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/memory.hpp"
@@ -21,6 +22,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -170,26 +173,35 @@ double plate_deflection(const FlexureParameters& flexure, const fem::Plate& plat
     return plate.sinusoid(x, flexure.pressure, flexure.wavelength);
 }
 
-/// The exact elastic layer's middle; nothing for a broken one, whose end no such solution has.
-std::optional<std::vector<double>> exact_deflection(const FlexureParameters& flexure,
-                                                    const fem::ElasticLayer& layer,
-                                                    const std::vector<double>& x) {
-    const double depth = 0.5 * layer.thickness;
-    if (flexure.load == FlexureLoad::broken)
-        return std::nullopt;
+/// Theory at the places of the solution.
+struct Theory {
+    Deflection plate;
+    std::optional<Deflection>
+        layer; ///< exact; none for a broken one, whose end has no such solution
+};
+
+Theory theory_of(const FlexureParameters& flexure, const Case& c, const std::vector<double>& x) {
+    const auto at_places = [&](const std::function<double(double)>& deflection) {
+        Deflection d{x, {}};
+        std::ranges::transform(x, std::back_inserter(d.w), deflection);
+        return d;
+    };
+    Theory theory;
+    theory.plate = at_places([&](double p) { return plate_deflection(flexure, c.plate, p); });
+    const double depth = 0.5 * c.layer.thickness;
     if (flexure.load == FlexureLoad::sinusoid) {
         const double q = 2.0 * std::numbers::pi / flexure.wavelength;
-        const double amplitude = flexure.pressure * layer.response(q, depth);
-        std::vector<double> w;
-        for (double place : x)
-            w.push_back(amplitude * dem::cosine(q * place));
-        return w;
+        const double amplitude = flexure.pressure * c.layer.response(q, depth);
+        theory.layer = at_places([&](double p) { return amplitude * dem::cosine(q * p); });
+    } else if (flexure.load != FlexureLoad::broken) {
+        theory.layer = Deflection{x, c.layer.deflection(x, depth, [&](double q) {
+                                      return flexure.load == FlexureLoad::line
+                                                 ? flexure.line_load
+                                                 : 2.0 * flexure.pressure *
+                                                       dem::sine(q * flexure.half_width) / q;
+                                  })};
     }
-    return layer.deflection(x, depth, [&](double q) {
-        return flexure.load == FlexureLoad::line
-                   ? flexure.line_load
-                   : 2.0 * flexure.pressure * dem::sine(q * flexure.half_width) / q;
-    });
+    return theory;
 }
 
 /// How the base bends, and the forces on it.
@@ -222,22 +234,6 @@ Bent bend(const FlexurePlan& plan, const Case& c, const fs::path& output, Log& l
     fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
     copy_view(output);
     return {d, base->reaction(), base->total_load()};
-}
-
-/// Theory at the places of the solution.
-struct Theory {
-    Deflection plate;
-    std::optional<Deflection> layer; ///< exact
-};
-
-Theory theory_of(const FlexureParameters& flexure, const Case& c, const std::vector<double>& x) {
-    Theory theory;
-    theory.plate.x = x;
-    for (double place : x)
-        theory.plate.w.push_back(plate_deflection(flexure, c.plate, place));
-    if (const auto w = exact_deflection(flexure, c.layer, x))
-        theory.layer = Deflection{x, *w};
-    return theory;
 }
 
 std::string deflection_csv(const Deflection& d, const Theory& theory) {

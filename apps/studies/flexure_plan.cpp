@@ -22,13 +22,13 @@ constexpr Shelf flexure_shelf{"flexure plan", "it needs [flexure]", "", "studies
 constexpr std::string_view flexure_doc = "a load on the base alone, without discs";
 
 /// A table of a plan, and the object whose parameters it has.
-struct PlanTable {
+struct FlexureTable {
     std::string_view name, doc;
     std::vector<Parameter> parameters;
     void* object;
 };
 
-std::vector<PlanTable> tables_of(FlexurePlan& plan) {
+std::vector<FlexureTable> tables_of(FlexurePlan& plan) {
     const Effect& bender = *plan.base.effect;
     return {
         {"flexure", flexure_doc, flexure_parameters(), &plan.flexure},
@@ -51,14 +51,14 @@ FlexurePlan default_plan() {
     return plan;
 }
 
-[[noreturn]] void fail_unknown(const Entry& entry, const std::vector<PlanTable>& tables) {
+[[noreturn]] void fail_unknown(const Entry& entry, const std::vector<FlexureTable>& tables) {
     const std::vector<SceneTable> of_scenes = scene_tables(program_effects());
     if (entry.path == "materials" ||
         std::ranges::find(of_scenes, entry.path, &SceneTable::name) != of_scenes.end())
         fail(entry, "needs discs, which a plan with [flexure] does not have; leave out one of the "
                     "two");
     std::vector<std::string_view> allowed = keys(top_level());
-    std::ranges::transform(tables, std::back_inserter(allowed), &PlanTable::name);
+    std::ranges::transform(tables, std::back_inserter(allowed), &FlexureTable::name);
     fail(entry, fmt::format("unknown {}, {}", entry.node.is_table() ? "table" : "key",
                             advice(entry.path, allowed)));
 }
@@ -138,14 +138,15 @@ FlexurePlan load_flexure_plan(const SceneRequest& request) {
     plan.name = plan.file.stem().string();
     if (!request.without.empty())
         fail(fmt::format("--without {}: a plan of flexure has no effects", request.without[0]));
-    const toml::table document = merged_document(request, plan.file);
+    toml::table document = merged_document(request, plan.file);
+    take_out_former_keys(document, program_effects());
     if (!document.contains("flexure"))
         fail({document, "flexure"}, fmt::format("is missing; {}", flexure_shelf.contents));
-    const std::vector<PlanTable> tables = tables_of(plan);
+    const std::vector<FlexureTable> tables = tables_of(plan);
     for (const auto& [key, node] : document) {
         const Entry entry{node, std::string(key.str())};
         const auto parameter = std::ranges::find(top_level(), key.str(), &Parameter::key);
-        const auto table = std::ranges::find(tables, key.str(), &PlanTable::name);
+        const auto table = std::ranges::find(tables, key.str(), &FlexureTable::name);
         if (parameter != top_level().end())
             read(entry, *parameter, static_cast<Heading*>(&plan));
         else if (table != tables.end())
@@ -162,7 +163,7 @@ std::string to_toml(const FlexurePlan& plan) {
     FlexurePlan shown = plan;
     std::string lines = fmt::format("# All parameters in force.\n\n{}",
                                     write(top_level(), static_cast<const Heading*>(&plan)));
-    for (const PlanTable& table : tables_of(shown))
+    for (const FlexureTable& table : tables_of(shown))
         lines += fmt::format("\n[{}]  # {}\n{}", table.name, table.doc,
                              write(table.parameters, table.object));
     return lines;
@@ -172,7 +173,7 @@ std::string flexure_schema() {
     FlexurePlan plan = default_plan();
     const Heading heading;
     auto schema = table_schema("", top_level(), &heading);
-    for (const PlanTable& table : tables_of(plan))
+    for (const FlexureTable& table : tables_of(plan))
         schema["properties"][std::string(table.name)] =
             table_schema(table.doc, table.parameters, table.object);
     return finished_schema("A plan of flexure of Listric", schema);

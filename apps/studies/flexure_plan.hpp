@@ -9,6 +9,8 @@
 
 namespace listric {
 
+struct RunOptions;
+
 enum class FlexureLoad { line, broken, strip, sinusoid };
 
 /// A load on the base alone. Loads are positive downward.
@@ -52,5 +54,13 @@ std::string flexure_reference();
 
 /// JSON schema of its file.
 std::string flexure_schema();
+
+/// Bends the base of a plan and leaves summary.json, deflection.csv, footwall.pvd (displacement and
+/// stress for ParaView) and figures/flexure.png in the output folder. Throws UsageError where no
+/// footwall can be made, StorageError.
+void run_flexure(const FlexurePlan& plan, const RunOptions& options);
+
+/// The plate and its load, as text.
+std::string explain(const FlexurePlan& plan);
 
 } // namespace listric

@@ -81,13 +81,26 @@ std::optional<std::vector<int>> seed_list(std::string_view text) {
     return std::vector<int>(seeds.begin(), seeds.end());
 }
 
+Parameter plan_key(std::string_view key, Value value, std::string_view doc, Range range,
+                   std::string_view unit) {
+    return {key, std::move(value), unit, range, "", doc};
+}
+
+void need_keys(const Entry& entry, const std::vector<const char*>& keys) {
+    for (const char* key : keys) {
+        const toml::node* const node = entry.node.as_table()->get(key);
+        const auto* const list = node ? node->as_array() : nullptr;
+        need(entry, key,
+             node && node->value_or(std::string("a")) != "" && !(list && list->empty()));
+    }
+}
+
 void need(const Entry& entry, const char* key, bool present) {
     if (!present)
         fail(entry, fmt::format("needs {}", key));
 }
 
 void need_name(const Entry& entry, const char* key, const std::string& name) {
-    need(entry, key, !name.empty());
     std::string why = objection_to_name(name);
     if (why.empty() && name.find_first_of(",\"") != name.npos)
         why = "has a comma or a quotation mark, which does not fit into a table";
@@ -109,6 +122,10 @@ std::vector<Entry> tables(const Entry& parent, const char* key) {
     for (const toml::node& item : *node->as_array())
         all.push_back({item, fmt::format("{}[{}]", path, all.size())});
     return all;
+}
+
+nlohmann::ordered_json array_of(std::string_view doc, nlohmann::ordered_json items) {
+    return {{"type", "array"}, {"description", doc}, {"items", std::move(items)}};
 }
 
 nlohmann::ordered_json measure_schema(MeasuredAt place) {

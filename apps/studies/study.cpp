@@ -71,7 +71,7 @@ std::span<const Study> studies() {
         {"time-step", "time step and density scaling: wave, lattice, lis1", study_time_step},
         {"footwall", "elements, refinement and solvers of the elastic base", study_footwall, true,
          false, 1},
-        {"coupling", "scheme, update interval and modes of lis1-elastic", study_coupling},
+        {"coupling", "update interval and modes of lis1-elastic", study_coupling},
         {"isostasy", "lis1-elastic by elastic thickness and fill", study_isostasy, true},
         // Forces do not depend on the lists: one packing shows it.
         {"precision", "single precision and neighbour lists", study_precision, false, true, 1},

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/archive/folder/run_records.hpp"
+#include "apps/run/batch.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/machine/stop.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,18 +17,14 @@
 
 namespace listric {
 
-/// A call of `listric study`: what accuracy costs in time.
-struct StudyRequest {
+/// A call of `listric study`: what accuracy costs in time. It makes one run at a time.
+struct StudyRequest : ManyRuns {
     std::string name = {};             ///< see studies()
     std::string scene = {};            ///< of studies made of runs; empty: the study's own
     std::vector<std::string> set = {}; ///< "table.key=value", for every run
     std::vector<double> values = {};   ///< of the swept parameter; empty: the study's own
     std::int64_t seed = 1;             ///< of the first run
     int seeds = 3;
-    int threads = 1;
-    std::filesystem::path output = {}; ///< empty: out/study-NAME
-    bool quiet = false;
-    StopToken stop = {};
 };
 
 /// Error and cost of one way to compute one quantity.
@@ -95,6 +91,12 @@ struct StudyRun {
     int most_seeds = 1000;                 ///< of a run that is too dear to be repeated
 };
 
+/// A run for each value of a parameter, "table.key", that points name "name=value".
+std::vector<StudyRun> runs_along(std::string_view name, std::string_view parameter,
+                                 const std::vector<double>& values,
+                                 const std::vector<std::string>& set = {},
+                                 std::optional<std::string> accuracy = "draft");
+
 /// Where the run by one seed is.
 std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
                                     std::int64_t seed);
@@ -108,10 +110,6 @@ struct SeededRun {
 std::vector<std::optional<nlohmann::ordered_json>>
 summaries_of_runs(const StudyRequest& request, std::span<const SeededRun> wanted);
 
-/// The summary of one.
-std::optional<nlohmann::ordered_json> summary_of_run(const StudyRequest& request,
-                                                     const StudyRun& run, std::int64_t seed);
-
 /// Quantity in which errors are measured.
 struct StudyQuantity {
     std::string name;
@@ -119,11 +117,11 @@ struct StudyQuantity {
     bool is_error = false; ///< an error itself: no reference is needed
 };
 
-/// Makes runs for every seed and measures them against the mean of the `reference` runs over their
-/// seeds: an error is the root mean square over seeds. Adds points of `method` and, from the
-/// reference, floors.
+/// Makes runs for every seed and measures them against the mean of the last one's over its seeds:
+/// an error is the root mean square over seeds. Adds points of `method` and, from this reference,
+/// floors.
 void sweep_runs(const StudyRequest& request, const std::string& method,
-                const std::vector<StudyRun>& runs, std::size_t reference,
-                const std::vector<StudyQuantity>& quantities, StudyResult& result);
+                const std::vector<StudyRun>& runs, const std::vector<StudyQuantity>& quantities,
+                StudyResult& result);
 
 } // namespace listric

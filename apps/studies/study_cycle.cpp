@@ -139,23 +139,15 @@ struct Squeeze {
 
     RigidBase base(bool moves) const {
         const double high = 2.0 * radius * rows, push = shortening * length();
+        const double right = length() - radius - (moves ? 0.0 : push);
         RigidBase b;
         b.material = material;
         b.surfaces = {{"left", {line({-radius, high}, {-radius, -high})}, 0.0, 0.0, {}},
-                      {"right",
-                       {line({length() - radius, -high}, {length() - radius, high})},
-                       0.0,
-                       0.0,
-                       {-1.0, 0.0}}};
-        if (moves)
+                      {"right", {line({right, -high}, {right, high})}, 0.0, 0.0, {}}};
+        if (moves) {
+            b.surfaces[1].translation = {-1.0, 0.0};
             b.motion = {push / time, 0.0};
-        else
-            b.surfaces[1] = {
-                "right",
-                {line({length() - radius - push, -high}, {length() - radius - push, high})},
-                0.0,
-                0.0,
-                {}};
+        }
         return b;
     }
 
@@ -204,8 +196,8 @@ StudyPoint squeeze(const Squeeze& s, double at_rest, double safety, double mass)
 }
 
 /// Adds what `measure` gives, with the least time of a few repeats: these take milliseconds.
-void add(StudyResult& result, StopToken stop, const std::function<StudyPoint()>& measure,
-         std::string method, std::string parameter) {
+void add(StudyResult& result, StopToken stop, std::string method, std::string parameter,
+         const std::function<StudyPoint()>& measure) {
     stop.check();
     StudyPoint point = measure();
     for (int repeat = 0; repeat < 4; ++repeat)
@@ -227,9 +219,8 @@ StudyResult study_time_step(const StudyRequest& request) {
     StudyResult result;
     result.title = "Time step and density scaling";
     for (double safety : {1.01, 0.95, 0.8, 0.5, 0.25, 0.125, 0.0625, 0.03125})
-        add(
-            result, request.stop, [&] { return swing({}, safety, {}); },
-            "wave in a chain: time step", fmt::format("safety={:g}", safety));
+        add(result, request.stop, "wave in a chain: time step", fmt::format("safety={:g}", safety),
+            [&] { return swing({}, safety, {}); });
 
     const Squeeze s;
     const RigidBase fixed = s.base(false);
@@ -238,36 +229,26 @@ StudyResult study_time_step(const StudyRequest& request) {
     advance(rest, fixed, {0.7, 0.0}, 40000);
     const double at_rest = s.reaction(rest);
     for (double safety : {1.5, 0.95, 0.5, 0.25, 0.125})
-        add(
-            result, request.stop, [&] { return squeeze(s, at_rest, safety, 1.0); },
-            "bonded lattice: time step", fmt::format("safety={:g}", safety));
+        add(result, request.stop, "bonded lattice: time step", fmt::format("safety={:g}", safety),
+            [&] { return squeeze(s, at_rest, safety, 1.0); });
     for (double mass : {1024.0, 256.0, 64.0, 16.0, 4.0, 1.0, 0.25})
-        add(
-            result, request.stop, [&] { return squeeze(s, at_rest, 0.95, mass); },
-            "bonded lattice: density scaling", fmt::format("mass={:g}", mass));
+        add(result, request.stop, "bonded lattice: density scaling", fmt::format("mass={:g}", mass),
+            [&] { return squeeze(s, at_rest, 0.95, mass); });
 
-    StudyRequest runs = request;
-    if (runs.scene.empty())
-        runs.scene = "lis1";
-    std::vector<StudyRun> steps, masses;
-    for (double safety : {1.5, 0.95, 0.7, 0.5, 0.25})
-        steps.push_back(
-            {fmt::format("safety={:g}", safety),
-             {fmt::format("cycle.time_step_safety={}", safety), "extension.distance_m=3000.0"},
-             "draft"});
-    for (double mass : {48.0, 12.0, 3.0, 0.75, 0.1875})
-        masses.push_back(
-            {fmt::format("mass_floor={:g}", mass),
-             {fmt::format("cycle.inertial_mass_floor={}", mass), "extension.distance_m=3000.0"},
-             "draft"});
+    const StudyRequest runs = with_scene(request, "lis1");
+    const std::vector<std::string> short_run{"extension.distance_m=3000.0"};
     const std::vector<StudyQuantity> quantities{
         {measures::name_of<&measures::Measures::rollover_tilt>()},
         {measures::name_of<&measures::Measures::area_balance>()},
         {measures::name_of<&measures::Measures::strain_top10>()},
         {measures::name_of<&measures::Measures::unbalanced_ratio_mean>(), 0.0, true}};
-    sweep_runs(runs, runs.scene + " 3 km time step: runs", steps, steps.size() - 1, quantities,
-               result);
-    sweep_runs(runs, runs.scene + " 3 km density scaling: runs", masses, masses.size() - 1,
+    sweep_runs(
+        runs, runs.scene + " 3 km time step: runs",
+        runs_along("safety", "cycle.time_step_safety", {1.5, 0.95, 0.7, 0.5, 0.25}, short_run),
+        quantities, result);
+    sweep_runs(runs, runs.scene + " 3 km density scaling: runs",
+               runs_along("mass_floor", "cycle.inertial_mass_floor",
+                          {48.0, 12.0, 3.0, 0.75, 0.1875}, short_run),
                quantities, result);
     return result;
 }
@@ -300,21 +281,16 @@ StudyResult study_precision(const StudyRequest& request) {
         };
         for (const Rounding& rounding : roundings)
             for (double safety : {0.8, 0.4, 0.2, 0.1, 0.05})
-                add(
-                    result, request.stop, [&] { return swing(wave, safety, rounding.apply); },
+                add(result, request.stop,
                     fmt::format("wave at x = {:g} km: {}", left / 1e3, rounding.name),
-                    fmt::format("safety={:g}", safety));
+                    fmt::format("safety={:g}", safety),
+                    [&] { return swing(wave, safety, rounding.apply); });
     }
 
-    StudyRequest runs = request;
-    if (runs.scene.empty())
-        runs.scene = "lis1";
-    std::vector<StudyRun> skins;
-    for (double skin : {0.15, 0.4, 0.7, 1.0, 0.25})
-        skins.push_back({fmt::format("skin={:g}", skin),
-                         {fmt::format("cycle.skin={}", skin), "extension.distance_m=2000.0"},
-                         "draft"});
-    sweep_runs(runs, runs.scene + " 2 km neighbour lists: runs", skins, skins.size() - 1,
+    const StudyRequest runs = with_scene(request, "lis1");
+    sweep_runs(runs, runs.scene + " 2 km neighbour lists: runs",
+               runs_along("skin", "cycle.skin", {0.15, 0.4, 0.7, 1.0, 0.25},
+                          {"extension.distance_m=2000.0"}),
                {{measures::name_of<&measures::Measures::rollover_tilt>()},
                 {measures::name_of<&measures::Measures::area_balance>()},
                 {measures::name_of<&measures::Measures::strain_top10>()}},

@@ -119,22 +119,26 @@ StudyRequest with_scene(StudyRequest request, const char* scene) {
 }
 
 Scene scene_of(const StudyRequest& request) {
-    SceneRequest wanted;
-    wanted.scene = request.scene;
-    wanted.set = request.set;
-    return load_scene(wanted);
+    return load_scene({.scene = request.scene, .set = request.set});
+}
+
+std::vector<StudyRun> runs_along(std::string_view name, std::string_view parameter,
+                                 const std::vector<double>& values,
+                                 const std::vector<std::string>& set,
+                                 std::optional<std::string> accuracy) {
+    std::vector<StudyRun> runs;
+    for (const double value : values) {
+        runs.push_back({fmt::format("{}={:g}", name, value), set, accuracy});
+        runs.back().set.push_back(fmt::format("{}={}", parameter, value));
+    }
+    return runs;
 }
 
 namespace {
 
 Scene scene_of_run(const StudyRequest& request, const StudyRun& run, std::int64_t seed) {
-    SceneRequest scene;
-    scene.scene = request.scene;
-    scene.set = run.set;
+    SceneRequest scene{request.scene, run.set, run.without, run.accuracy, seed};
     scene.set.insert(scene.set.end(), request.set.begin(), request.set.end());
-    scene.seed = seed;
-    scene.accuracy = run.accuracy;
-    scene.without = run.without;
     return load_scene(scene);
 }
 
@@ -171,19 +175,13 @@ std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun&
 std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
                                                    std::span<const SeededRun> wanted) {
     std::vector<BatchRun> runs;
-    for (const auto& [run, seed] : wanted) {
-        RunOptions options;
-        options.stop = request.stop;
-        options.output = folder_of_run(request, run, seed);
-        options.threads = request.threads;
-        options.quiet = request.quiet;
-        options.report = false;
+    for (const auto& [run, seed] : wanted)
         runs.push_back({fmt::format("{}, seed {}", run.parameter, seed),
-                        scene_of_run(request, run, seed), std::move(options)});
-    }
+                        scene_of_run(request, run, seed),
+                        request.options_of_run(folder_of_run(request, run, seed), true)});
     Log log(request.quiet);
     // One at a time: what a run takes is what is studied.
-    const std::vector<BatchEnding> endings = make_runs(runs, 1, log, request.stop);
+    const std::vector<BatchEnding> endings = make_runs(runs, request, log);
     std::vector<std::optional<Json>> summaries;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         if (endings[k].exit_code == static_cast<int>(ExitCode::numerics_failed)) {
@@ -197,15 +195,9 @@ std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
     return summaries;
 }
 
-std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& run,
-                                   std::int64_t seed) {
-    const SeededRun alone[]{{run, seed}};
-    return summaries_of_runs(request, alone)[0];
-}
-
 void sweep_runs(const StudyRequest& request, const std::string& method,
-                const std::vector<StudyRun>& runs, std::size_t reference,
-                const std::vector<StudyQuantity>& quantities, StudyResult& result) {
+                const std::vector<StudyRun>& runs, const std::vector<StudyQuantity>& quantities,
+                StudyResult& result) {
     std::vector<SeededRun> seeded;
     for (const StudyRun& run : runs)
         for (int k = 0; k < std::min(request.seeds, run.most_seeds); ++k)
@@ -222,7 +214,7 @@ void sweep_runs(const StudyRequest& request, const std::string& method,
         next = end;
     }
     for (const StudyQuantity& quantity : quantities) {
-        const std::vector<Values> best = values_of(summaries[reference], quantity.name);
+        const std::vector<Values> best = values_of(summaries.back(), quantity.name);
         if (best.empty())
             continue;
         const Values wanted = quantity.is_error ? Values(best[0].size(), 0.0) : mean(best);
@@ -230,13 +222,13 @@ void sweep_runs(const StudyRequest& request, const std::string& method,
                              : quantity.scale > 0.0 ? quantity.scale
                                                     : distance(wanted, Values(wanted.size(), 0.0));
         // The spread of the reference, or of the next finest that has one.
-        for (std::size_t r = reference + 1; r-- > 0 && !quantity.is_error;)
+        for (std::size_t r = runs.size(); r-- > 0 && !quantity.is_error;)
             if (const auto seeds = values_of(summaries[r], quantity.name); seeds.size() > 1) {
                 result.floors[quantity.name] = root_mean_square(seeds, mean(seeds), scale);
                 break;
             }
         for (std::size_t r = 0; r < runs.size(); ++r) {
-            if (r == reference && !quantity.is_error)
+            if (r + 1 == runs.size() && !quantity.is_error)
                 continue;
             const std::vector<Values> values = values_of(summaries[r], quantity.name);
             StudyPoint point{method,        runs[r].parameter,
@@ -266,25 +258,27 @@ std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
             {measures::name_of<&measures::Measures::inertial_number>(), 0.0, true}};
 }
 
+/// The values of a call, or else these, the greatest first.
+Values falling(const StudyRequest& request, const Values& otherwise) {
+    Values values = request.values.empty() ? otherwise : request.values;
+    std::ranges::sort(values, std::greater{});
+    return values;
+}
+
 } // namespace
 
 StudyResult study_resolution(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1");
     const Scene scene = scene_of(request);
     // 3,000, 4,200, 8,300, 16,700, 33,000 and 67,000 discs of lis1 before sediment.
-    Values radii =
-        request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 46.55} : request.values;
-    std::ranges::sort(radii, std::greater{});
-    std::vector<StudyRun> runs;
-    for (double radius : radii)
-        runs.push_back({fmt::format("mean_radius_m={:g}", radius),
-                        {fmt::format("hanging_wall.mean_radius_m={}", radius),
-                         "extension.speed_m_per_s=1.0"}});
+    const Values radii = falling(request, {220.0, 186.2, 132.0, 93.1, 66.0, 46.55});
+    std::vector<StudyRun> runs = runs_along("mean_radius_m", "hanging_wall.mean_radius_m", radii,
+                                            {"extension.speed_m_per_s=1.0"}, {});
     runs.back().most_seeds = 1; // as dear as all others together
     StudyResult result;
     result.title =
         fmt::format("Resolution: {} against mean radius {:g} m", request.scene, radii.back());
-    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    sweep_runs(request, request.scene, runs, basin_quantities(scene), result);
     return result;
 }
 
@@ -301,16 +295,13 @@ struct Curve {
     std::string set;
 };
 
-Curve read_curve(const Entry& entry) {
-    Curve curve;
-    read_table(entry,
-               {{"method", at<&Curve::method>, "", {}, "", "of the study's points"},
-                {"name", at<&Curve::name>, "", {}, "", "of runs, before the value"},
-                {"vary", at<&Curve::vary>, "", {}, "", "table.key"},
-                {"values", at<&Curve::values>, "", {}, "", "that it takes"},
-                {"set", at<&Curve::set>, "", {}, "", "changes for all of them"}},
-               &curve);
-    return curve;
+PlanTable<Curve> curve_table() {
+    return {"",
+            {plan_key("method", at<&Curve::method>, "of the study's points"),
+             plan_key("name", at<&Curve::name>, "of runs, before the value"),
+             plan_key("vary", at<&Curve::vary>, "table.key"),
+             plan_key("values", at<&Curve::values>, "that it takes"),
+             plan_key("set", at<&Curve::set>, "changes for all of them")}};
 }
 
 } // namespace
@@ -326,22 +317,18 @@ StudyResult study_coupling(const StudyRequest& asked) {
                                                 {effects::base_resolved_difference, 0.0, true},
                                                 {effects::base_reaction_error, 0.0, true}};
     const toml::table document = study_plan("coupling");
-    CouplingPlan plan;
-    read_table({document, ""},
-               {{"set", at<&CouplingPlan::set>, "", {}, "", "changes for every run"},
-                {"reference", at<&CouplingPlan::reference>, "", {}, "", "changes for the best"}},
-               &plan, {"curve"});
-    const auto run = [&](const std::string& parameter, const std::string& changes) {
-        return StudyRun{parameter, words(fmt::format("{} {}", plan.set, changes)), "draft"};
-    };
+    const auto plan = PlanTable<CouplingPlan>{
+        "",
+        {plan_key("set", at<&CouplingPlan::set>, "changes for every run"),
+         plan_key("reference", at<&CouplingPlan::reference>, "changes for the best")},
+        {},
+        {"curve"}}.read({document, ""});
     for (const Entry& entry : tables({document, ""}, "curve")) {
-        const Curve curve = read_curve(entry);
-        std::vector<StudyRun> runs;
-        for (const double value : curve.values)
-            runs.push_back(run(fmt::format("{}={:g}", curve.name, value),
-                               fmt::format("{} {}={:g}", curve.set, curve.vary, value)));
-        runs.push_back(run("converged=1", plan.reference));
-        sweep_runs(request, curve.method, runs, runs.size() - 1, quantities, result);
+        const Curve curve = curve_table().read(entry);
+        std::vector<StudyRun> runs =
+            runs_along(curve.name, curve.vary, curve.values, words(plan.set + ' ' + curve.set));
+        runs.push_back({"converged=1", words(plan.set + ' ' + plan.reference), "draft"});
+        sweep_runs(request, curve.method, runs, quantities, result);
     }
     return result;
 }
@@ -349,17 +336,13 @@ StudyResult study_coupling(const StudyRequest& asked) {
 StudyResult study_speed(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1");
     const Scene scene = scene_of(request);
-    Values speeds = request.values.empty() ? Values{8.0, 4.0, 2.0, 1.0, 0.5, 0.25} : request.values;
-    std::ranges::sort(speeds, std::greater{});
-    std::vector<StudyRun> runs;
-    for (double speed : speeds)
-        runs.push_back({fmt::format("speed_m_per_s={:g}", speed),
-                        {fmt::format("extension.speed_m_per_s={}", speed)},
-                        "draft"});
+    const Values speeds = falling(request, {8.0, 4.0, 2.0, 1.0, 0.5, 0.25});
     StudyResult result;
     result.title =
         fmt::format("Boundary speed: {} at draft against {:g} m/s", request.scene, speeds.back());
-    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    sweep_runs(request, request.scene,
+               runs_along("speed_m_per_s", "extension.speed_m_per_s", speeds),
+               basin_quantities(scene), result);
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml/tables.hpp"
+#include "apps/scene/toml/toml.hpp"
 
 #include <fmt/format.h>
 
@@ -31,13 +32,20 @@ std::string_view without_comment(std::string_view line) {
     return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
-/// Defaults of all parameters of all tables, as scene_values() has them.
+/// Defaults of all parameters of all tables, as scene_values() has them, and of former keys what is
+/// done without them.
 const std::map<std::string, std::string>& default_values() {
     static const auto values = [] {
         Scene scene;
         for (const SceneTable& table : scene_tables(program_effects()))
             table.add(table, scene);
-        return scene_values(to_toml(scene));
+        auto all = scene_values(to_toml(scene));
+        for (const Effect* effect : program_effects())
+            for (const FormerKey& former : effect->former)
+                if (!former.stays.empty())
+                    all[fmt::format("{}.{}", effect->name, former.key)] =
+                        quoted(std::string(former.stays));
+        return all;
     }();
     return values;
 }

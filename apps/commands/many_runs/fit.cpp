@@ -2,7 +2,6 @@
 #include "apps/commands/signals.hpp"
 #include "apps/studies/fit/basin_fit.hpp"
 
-#include <algorithm>
 #include <memory>
 
 namespace listric {
@@ -41,16 +40,10 @@ Command add_fit(CLI::App& program) {
     add_count(*command, "--rounds", request->rounds,
               "rounds of 15 drafts, at most: another where the best is at an end of those tried", 1,
               10);
-    const CLI::Option* jobs =
-        add_count(*command, "-j,--jobs", request->jobs, "runs at a time", 1, 1024)
-            ->default_str("cores over threads");
-    add_threads(*command, request->threads)->default_str("1");
-    add_output(*command, request->output, "out/fit-PICKS");
+    add_many_runs(*command, *request, "out/fit-PICKS");
     add_quiet(*command, request->quiet);
     return {command,
-            [request, jobs] {
-                if (jobs->count() == 0)
-                    request->jobs = std::max(1, all_threads() / request->threads);
+            [request] {
                 request->stop = stop_on_signals();
                 return run_basin_fit(*request) ? ExitCode::done : ExitCode::numerics_failed;
             },

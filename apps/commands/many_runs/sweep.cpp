@@ -4,7 +4,6 @@
 #include "apps/commands/signals.hpp"
 #include "apps/support/error.hpp"
 
-#include <algorithm>
 #include <memory>
 
 namespace listric {
@@ -37,11 +36,7 @@ Command add_sweep(CLI::App& program) {
     command->add_option("PLAN", request->plan, "plan of the sweep, a TOML file")
         ->type_name("FILE")
         ->required();
-    const CLI::Option* jobs =
-        add_count(*command, "-j,--jobs", request->jobs, "runs at a time", 1, 1024)
-            ->default_str("cores over threads");
-    add_threads(*command, request->threads)->default_str("1");
-    add_output(*command, request->output, "out/sweep-PLAN");
+    add_many_runs(*command, *request, "out/sweep-PLAN");
     command->add_option("--task", *task, "part i/n of the runs, for job arrays")
         ->type_name("PART")
         ->default_str("all runs");
@@ -51,9 +46,7 @@ Command add_sweep(CLI::App& program) {
         ->expected(1, 100'000);
     add_quiet(*command, request->quiet);
     return {command,
-            [request, task, jobs] {
-                if (jobs->count() == 0)
-                    request->jobs = std::max(1, all_threads() / request->threads);
+            [request, task] {
                 if (!task->empty())
                     request->task = parse_task(*task);
                 if (request->task && !request->merge.empty())

@@ -1,4 +1,4 @@
-#include "apps/laboratory/calibration/calibration.hpp"
+#include "apps/laboratory/laboratory.hpp"
 
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"
@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr double steepest = 0.9; ///< envelope that no disc friction reaches: 0.83 at 10
 
 /// The rocks that were found; `weak` if one was wanted.
 struct Rocks {
@@ -126,10 +128,6 @@ Json validate(Calibration& c, Rocks& rocks, const CalibrationRequest& request) {
     return summary;
 }
 
-} // namespace
-
-namespace {
-
 /// All of a call that its results depend on.
 Json request_of(const CalibrationRequest& request) {
     const CalibrationTargets& t = request.targets;
@@ -141,6 +139,27 @@ Json request_of(const CalibrationRequest& request) {
 }
 
 } // namespace
+
+void CalibrationTargets::check() const {
+    const auto refuse = [](const char* option, double value, const char* allowed) {
+        throw UsageError(fmt::format("{} {}: allowed: {}", option, value, allowed));
+    };
+    if (!(young >= 1e6 && young <= 1e13))
+        refuse("--young", young, "1e6 to 1e13 Pa");
+    if (!(poisson > 0.0 && poisson < 0.5))
+        refuse("--poisson", poisson, "above 0, below 0.5 (plane strain)");
+    // nu_2D = nu / (1 - nu): a two-dimensional material reaches 0.5 when the rock has 1/3.
+    if (poisson >= 1.0 / 3.0)
+        refuse("--poisson", poisson,
+               "below 1/3, which is 0.5 in 2D terms: contacts give less, however soft in shear");
+    if (!byerlee && !(friction > 0.0 && friction <= steepest))
+        refuse("--friction", friction,
+               "above 0, at most 0.9: round discs roll, whatever their own friction");
+    if (!byerlee && !(cohesion >= 0.0 && cohesion <= 1e9))
+        refuse("--cohesion", cohesion, "0 to 1e9 Pa");
+    if (bulk_friction && !(*bulk_friction > 0.0 && *bulk_friction <= 1.0))
+        refuse("--bulk-friction", *bulk_friction, "above 0, at most 1");
+}
 
 void run_calibration(const CalibrationRequest& request) {
     request.targets.check();

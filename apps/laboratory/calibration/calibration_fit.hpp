@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/laboratory/calibration/calibration_targets.hpp"
+#include "apps/laboratory/request.hpp"
 #include "apps/laboratory/tests.hpp"
 #include "apps/support/words/log.hpp"
 

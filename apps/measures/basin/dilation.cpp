@@ -2,7 +2,7 @@
 
 #include "dem/base/just_before.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/hypotenuse.hpp"
+#include "dem/numbers/hypotenuse.hpp"
 
 #include <utility>
 

@@ -111,16 +111,13 @@ std::vector<Parameter> footwall_parameters() {
 /// How it moves with the discs.
 std::vector<Parameter> coupling_parameters() {
     return {
-        {"scheme", one_of<&P::scheme>({"modal", "lumped"}), "", ranges::any, "",
-         "masses of the base's modes, or of its nodes, with which it moves with the discs",
-         "\"lumped\" is there to compare; both come to rest at one place."},
         {"update_interval_cycles", at<&P::update_interval>, "", between(1, 1e6), "",
          "number of cycles between updates of the base",
          "Raising it lets the base lag behind its load in proportion: 2 % of its displacement at "
          "5, 7 % at 20, of 2 km of extension.",
          between(1, 20)},
         {"modes", at<&P::modes>, "", between(0, 1e5), "",
-         "number of the base's softest modes that move in scheme modal; 0: all",
+         "number of the base's softest modes that move; 0: all",
          "Lowering it below 20 holds the base stiffer at short wavelengths.", between(20, 100)},
         {"mass_factor",
          at<&P::mass_factor>,
@@ -130,7 +127,7 @@ std::vector<Parameter> coupling_parameters() {
          "modal mass over (stiffness + contact stiffness) times the squared update interval",
          "Raising it makes the base more inert, so that it lags behind its load."},
         {"swing_damping", at<&P::swing_damping>, "", between(0, 10), "",
-         "damping of the modes of scheme modal with the discs they carry, over critical damping",
+         "damping of the modes with the discs they carry, over critical damping",
          "Lowering it lets base and discs oscillate together on soft springs."},
     };
 }
@@ -248,11 +245,10 @@ std::string explain_lacks(const Scene& scene, EffectList list) {
 /// Loads that the footwall feels, and those that it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *listric::elastic_base(scene);
-    constexpr const char* schemes[] = {"modal", "lumped"};
     std::string text = fmt::format(
         "elastic base\n"
         "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
-        "1/{:g},\n  but not within {:g} km of the detachment; scheme {}, every {} cycles\n"
+        "1/{:g},\n  but not within {:g} km of the detachment; updated every {} cycles\n"
         "  loaded by what changes in the discs' forces since they settled on it\n"
         "  loads that no disc carries\n"
         "    right of the right wall: the weight of the undisturbed hanging wall, up to where the\n"
@@ -261,9 +257,8 @@ std::string explain(const Scene& scene, EffectList list) {
         "    footwall and on the detachment, {} kg/m3 at the base\n"
         "    {}\n",
         base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
-        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3,
-        schemes[static_cast<int>(base.scheme)], base.update_interval, base.bending.crust_density,
-        base.bending.mantle_density - base.bending.crust_density,
+        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3, base.update_interval,
+        base.bending.crust_density, base.bending.mantle_density - base.bending.crust_density,
         base.bending.infill_density > 0.0
             ? fmt::format("infill of {} kg/m3 on the footwall's surface: {} kg/m3 there, where it "
                           "sinks and\n    where it rises",
@@ -391,7 +386,8 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters = parameters(),
         .former = {{"averaging_time_s", "cycle.averaging_time_s, which all scenes have"},
-                   {"disc_damping", "cycle.averaging_time_s, 0 for absolute"}},
+                   {"disc_damping", "cycle.averaging_time_s, 0 for absolute"},
+                   {.key = "scheme", .stays = "modal"}},
         .files = {{"mesh_file", "", "",
                    [](Scene& scene, const std::string& file, const Refuse&) {
                        scene.find<P>()->mesh_file = std::filesystem::absolute(file).string();

@@ -22,8 +22,7 @@ struct ElasticBaseParameters {
     std::vector<fem::Layer> layers; ///< rock by depth; none: one of the values above
     std::string mesh_file;          ///< Gmsh .msh instead of elements made from the scene
     fem::Side left_side = fem::Side::roller, right_side = fem::Side::roller;
-    int refinements = 0; ///< times that all elements are halved
-    coupling::CouplingScheme scheme = coupling::CouplingScheme::modal;
+    int refinements = 0;        ///< times that all elements are halved
     int update_interval = 5;    ///< cycles
     int modes = 100;            ///< 0: all
     double mass_factor = 0.6;   ///< of the modes

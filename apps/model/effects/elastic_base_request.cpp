@@ -54,7 +54,6 @@ CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts
                                             double node_spacing) {
     const auto& base = *elastic_base(scene);
     CouplingParameters p;
-    p.scheme = base.scheme;
     p.interval = base.update_interval;
     p.modes = base.modes;
     p.mass_factor = base.mass_factor;

@@ -60,10 +60,12 @@ struct FileParameter {
     enum Naming { path, material, material_or_none } naming = path;
 };
 
-/// A key that an effect had once; a scene that has it is refused.
+/// A key that an effect had once. A scene that has it is refused, unless its value is what is done
+/// now: that is passed over, so that older runs can be read and go on.
 struct FormerKey {
     std::string_view key;
-    std::string_view instead; ///< "least_slip_m, the slip itself"
+    std::string_view instead = {}; ///< "least_slip_m, the slip itself"
+    std::string_view stays = {};   ///< the only word of the key that still has a meaning
 };
 
 /// A rock whose file, named in [materials], holds defaults of the effect's parameters.
@@ -223,7 +225,7 @@ struct Effect {
     PartAddress address;
     std::vector<Parameter> parameters = {}; ///< of an item, where there are several
     std::optional<ItemAddress> items = {};  ///< none: one table; else a table [[name]] for each
-    std::vector<FormerKey> former = {};     ///< refused with what does it now
+    std::vector<FormerKey> former = {};     ///< see FormerKey
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too

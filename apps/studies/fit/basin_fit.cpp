@@ -173,18 +173,13 @@ public:
                                  "vertical\n",
                                  kinematics.misfit, std::round(kinematics.angle) + 0.0) // no -0
                   << text_of(predicted) << std::flush;
-        ListricShape best = kinematics.shape;
-        bool found = true;
-        if (!request_.predict_only) {
-            const auto drafts = fit_by_drafts(kinematics.shape);
-            found = drafts.has_value();
-            best = drafts.value_or(best);
-        }
-        if (!found) // an earlier answer stays
+        const auto best = request_.predict_only ? std::optional(kinematics.shape)
+                                                : fit_by_drafts(kinematics.shape);
+        if (!best) // an earlier answer stays
             return false;
         write_text(output_ / "profile.csv", "stage,number,value,misfit_m\n" + profiles_);
         write_object(output_ / "fit.json", json_);
-        write_scene(best);
+        write_scene(*best);
         return true;
     }
 
@@ -320,10 +315,10 @@ private:
                       fit->misfit + 2.0 * std::max(over_seeds.deviation, fit->residual));
         profiles_ += profile_rows("drafts", fit->profiles);
         json_["drafts"] = json_of(answer);
-        json_["drafts"]["spread_m"] = over_seeds.deviation;
-        json_["drafts"]["seeds"] = misfits.size();
-        json_["drafts"]["residual_m"] = fit->residual;
-        json_["drafts"]["at_end"] = fit->at_end;
+        json_["drafts"].update({{"spread_m", over_seeds.deviation},
+                                {"seeds", misfits.size()},
+                                {"residual_m", fit->residual},
+                                {"at_end", fit->at_end}});
         const std::string scatter =
             misfits.size() > 1
                 ? fmt::format("spread over {} seeds {:.0f} m", misfits.size(), over_seeds.deviation)
@@ -352,20 +347,13 @@ private:
                 output_ / "runs" /
                 (run.round > 0 ? fmt::format("{}-{:02}-seed={}", run.round, k + 1, run.seed)
                                : fmt::format("best-seed={}", run.seed));
-            RunOptions options;
-            options.output = run.folder;
-            options.threads = request_.threads;
-            options.quiet = request_.quiet || request_.jobs > 1;
-            options.figures = options.report = false;
-            options.stop = request_.stop;
             batch.push_back(
                 {fmt::format("dip {:.0f} degrees, depth {:.1f} km, straight share "
                              "{:.2f}, seed {}",
                              run.shape.dip, 1e-3 * run.shape.depth, run.shape.straight, run.seed),
-                 scene_at(plan, points[k], run.seed), std::move(options)});
+                 scene_at(plan, points[k], run.seed), request_.options_of_run(run.folder)});
         }
-        const std::vector<BatchEnding> endings =
-            make_runs(batch, request_.jobs, log_, request_.stop);
+        const std::vector<BatchEnding> endings = make_runs(batch, request_, log_);
         for (std::size_t k = 0; k < runs.size(); ++k) {
             if (endings[k].exit_code == static_cast<int>(ExitCode::bad_call))
                 require_finished(batch[k], endings[k]); // of other picks or parameters, say

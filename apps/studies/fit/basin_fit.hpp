@@ -1,7 +1,6 @@
 #pragma once
 
-#include "apps/scene/scene_file.hpp"
-#include "apps/support/machine/stop.hpp"
+#include "apps/run/batch.hpp"
 
 #include <filesystem>
 #include <string>
@@ -10,20 +9,15 @@
 namespace listric {
 
 /// A call of `listric fit`.
-struct BasinFitRequest {
+struct BasinFitRequest : ManyRuns {
     std::filesystem::path picks;       ///< CSV: name, x_m, depth_m, age_a
     std::string scene = "lis1";        ///< of which all but the detachment is kept
     std::vector<std::string> set = {}; ///< changes of it
     std::string accuracy = "draft";    ///< of the runs
-    std::filesystem::path output;      ///< empty: out/fit-PICKS
     bool predict_only = false;         ///< no run is made
     int seeds = 3;                     ///< of the best shape
     int first_seed = 1;
-    int rounds = 2;  ///< of drafts, at most
-    int jobs = 1;    ///< runs at a time
-    int threads = 1; ///< of a run
-    bool quiet = false;
-    StopToken stop = {};
+    int rounds = 2; ///< of drafts, at most
 };
 
 /// Fits a listric detachment to picked horizons (docs/guides/fit.md): kinematics first, then drafts

@@ -1,6 +1,8 @@
 #include "apps/studies/fit/kinematic_fit.hpp"
 
 #include "apps/studies/fit/simplex_search.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,10 @@ namespace listric {
 
 namespace {
 
-using Numbers = std::array<double, 4>; ///< dip, depth, share of the line, angle
+using Numbers = std::vector<double>; ///< dip, depth, share of the line, angle
+
+constexpr double shortest_line = 1.0; ///< m
+constexpr double flat = 60e3;         ///< m, as of shipped scenes
 
 constexpr double deepest = 60e3; ///< that is tried, m
 
@@ -45,12 +50,6 @@ SimplexMinimum descend(const FitTask& task, const Numbers& start, const Numbers&
 
 Numbers steps_at(const Numbers& place) { return {8.0, 0.1 * place[1], 0.1, 8.0}; }
 
-Numbers as_numbers(const SimplexMinimum& minimum) {
-    Numbers numbers{};
-    std::ranges::copy(minimum.at, numbers.begin());
-    return numbers;
-}
-
 /// Best of the starts, then downhill from the best few, and once more from where that ends.
 SimplexMinimum best_of(const FitTask& task) {
     const Numbers low = least_of(task);
@@ -60,17 +59,14 @@ SimplexMinimum best_of(const FitTask& task) {
             for (const double straight : {0.0, 0.4})
                 for (const double angle : {0.0, 20.0, 40.0}) {
                     const Numbers start{dip, depth * low[1], straight, angle};
-                    starts.push_back({{start.begin(), start.end()},
-                                      kinematic_misfit(task, shape_of(start), angle)});
+                    starts.push_back({start, kinematic_misfit(task, shape_of(start), angle)});
                 }
     std::ranges::stable_sort(starts, {}, &SimplexMinimum::value);
     starts.resize(4);
-    for (SimplexMinimum& start : starts) {
-        const Numbers place = as_numbers(start);
-        start = descend(task, place, steps_at(place), 200);
-    }
+    for (SimplexMinimum& start : starts)
+        start = descend(task, start.at, steps_at(start.at), 200);
     const SimplexMinimum best = *std::ranges::min_element(starts, {}, &SimplexMinimum::value);
-    return descend(task, as_numbers(best), steps_at(as_numbers(best)), 200);
+    return descend(task, best.at, steps_at(best.at), 200);
 }
 
 /// Values from a lowest to a highest.
@@ -84,7 +80,7 @@ std::vector<double> even_values(double low, double high) {
 
 /// From the best to either side, each value's search from where that of its neighbour ended.
 FitProfile profile_of(const FitTask& task, const SimplexMinimum& best, std::size_t number) {
-    const Numbers at = as_numbers(best), low = least_of(task), high = greatest_of(task);
+    const Numbers at = best.at, low = least_of(task), high = greatest_of(task);
     const bool is_depth = number == 1;
     std::vector<double> values =
         even_values(is_depth ? std::max(low[1], 0.6 * at[1]) : low[number],
@@ -99,7 +95,7 @@ FitProfile profile_of(const FitTask& task, const SimplexMinimum& best, std::size
             from[number] = values[static_cast<std::size_t>(k)];
             step[number] = 0.0;
             const SimplexMinimum found = descend(task, from, step, 100);
-            from = as_numbers(found);
+            from = found.at;
             profile.misfit[static_cast<std::size_t>(k)] = found.value;
         }
     }
@@ -107,6 +103,36 @@ FitProfile profile_of(const FitTask& task, const SimplexMinimum& best, std::size
 }
 
 } // namespace
+
+double ListricShape::line_length() const {
+    const double length = straight * depth / dem::sine(dip * dem::pi / 180.0);
+    return length < shortest_line ? 0.0 : length;
+}
+
+double ListricShape::radius() const {
+    const double radians = dip * dem::pi / 180.0;
+    return (depth - line_length() * dem::sine(radians)) / (1.0 - dem::cosine(radians));
+}
+
+dem::DetachmentParameters detachment_of(const ListricShape& shape) {
+    dem::DetachmentParameters detachment;
+    detachment.start_dip = shape.dip;
+    if (shape.line_length() > 0.0)
+        detachment.segments.push_back(dem::straight(shape.line_length()));
+    detachment.segments.push_back(dem::arc_to_dip(0.0, shape.radius()));
+    detachment.segments.push_back(dem::straight(flat));
+    return detachment;
+}
+
+const std::array<ShapeNumber, 3>& shape_numbers() {
+    static constexpr std::array<ShapeNumber, 3> numbers{{
+        {"breakaway_dip_deg", "dip at the breakaway", "degrees", &ListricShape::dip, 1.0, 12.0, 5.0,
+         false},
+        {"depth_m", "depth of the flat", "km", &ListricShape::depth, 1e-3, 0.1, 0.05, true},
+        {"straight", "straight share", "", &ListricShape::straight, 1.0, 0.15, 0.1, false},
+    }};
+    return numbers;
+}
 
 FitRange FitProfile::range(double most) const {
     const auto best = static_cast<std::size_t>(std::ranges::min_element(misfit) - misfit.begin());

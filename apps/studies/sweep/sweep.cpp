@@ -4,14 +4,11 @@
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/folder/provenance.hpp"
-#include "apps/archive/folder/run_folder.hpp"
 #include "apps/archive/folder/scene_lines.hpp"
-#include "apps/archive/folder/setting.hpp"
-#include "apps/figures/figures.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "apps/studies/sweep/effects_table.hpp"
+#include "apps/studies/pictured_states.hpp"
 #include "apps/studies/sweep/sweep_effects.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/sweep/sweep_table.hpp"
@@ -108,10 +105,8 @@ private:
     }
 
     std::string name_of(const SweepRow& row) const {
-        std::string text = fmt::format("run {}, seed {}", row.run, row.seed);
-        for (std::size_t k = 0; k < plan_.parameters.size(); ++k)
-            text += fmt::format(", {}={}", plan_.parameters[k].name, points_[row.run - 1][k].text);
-        return text;
+        return name_of_point(plan_, row.run - 1, points_[row.run - 1],
+                             fmt::format(", seed {}", row.seed));
     }
 
     Scene scene_of(const SweepRow& row) const {
@@ -160,14 +155,12 @@ private:
     /// side by side seldom wait for the same.
     std::vector<SweepRow> asked() const {
         std::vector<SweepRow> rows;
-        std::size_t number = 0;
+        const SweepTask task = request_.task.value_or(SweepTask{});
+        int number = 0;
         for (std::size_t run = 1; run <= points_.size(); ++run)
-            for (int k = 0; k < plan_.seeds; ++k, ++number) {
-                const SweepTask task = request_.task.value_or(SweepTask{});
-                if (number % static_cast<std::size_t>(task.of) ==
-                    static_cast<std::size_t>(task.number - 1))
+            for (int k = 0; k < plan_.seeds; ++k)
+                if (number++ % task.of == task.number - 1)
                     rows.push_back({run, plan_.first_seed + k});
-            }
         return rows;
     }
 
@@ -179,16 +172,9 @@ private:
             log_.progress(
                 fmt::format("reading the scene of run {} of {}", runs.size() + 1, rows.size()));
             row.folder = output_ / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
-            RunOptions options;
-            options.output = row.folder;
-            options.threads = request_.threads;
-            options.quiet = request_.quiet || request_.jobs > 1;
-            options.figures = options.report = false;
-            options.stop = request_.stop;
-            runs.push_back({name_of(row), scene_of(row), std::move(options)});
+            runs.push_back({name_of(row), scene_of(row), request_.options_of_run(row.folder)});
         }
-        const std::vector<BatchEnding> endings =
-            make_runs(runs, request_.jobs, log_, request_.stop);
+        const std::vector<BatchEnding> endings = make_runs(runs, request_, log_);
         for (std::size_t k = 0; k < rows.size(); ++k) {
             request_.stop.check();
             log_.progress(fmt::format("measuring run {} of {}", k + 1, rows.size()));
@@ -240,11 +226,6 @@ private:
                                 plan_.measures[m].text));
     }
 
-    void warn_of_few_seeds() {
-        if (const std::string text = warning_of_few(plan_.seeds); !text.empty())
-            log_.say("warning: " + text);
-    }
-
     void write_effects(const std::vector<SweepRow>& rows) {
         const std::vector<SweepFactor> factors = factors_of(plan_, points_, rows);
         std::vector<std::size_t> run;
@@ -268,43 +249,28 @@ private:
                                      factor.name));
         write_text(output_ / "effects.csv", effects_csv(effects));
         std::cout << effects_text(effects);
-        if (!factors.empty())
-            warn_of_few_seeds();
+        if (const std::string text = warning_of_few(plan_.seeds); !factors.empty() && !text.empty())
+            log_.say("warning: " + text);
         if (!effects.empty())
             draw_or_warn("effects.py", {fs::absolute(output_).string()});
     }
 
-    /// Draws the sheet, for which the tables need not wait: the runs may be elsewhere.
+    /// Draws the last state of every point, by its first seed that is finished. The tables need not
+    /// wait for it: the runs may be elsewhere.
     void draw_sheet_or_warn(const std::vector<SweepRow>& rows) {
+        std::vector<PicturedState> states;
+        std::size_t last = 0;
+        for (const SweepRow& row : rows)
+            if (!row.failed() && row.run != last && states.size() < most_on_sheet) {
+                last = row.run;
+                states.push_back({row.folder, name_of(row)});
+            }
         try {
-            draw_sheet(rows);
+            if (!states.empty())
+                draw_states(states, "multiples", output_ / "sheet.png", request_.stop);
         } catch (const std::exception& error) {
             log_.say(std::string("warning: no sheet.png: ") + words_of(error));
         }
-    }
-
-    /// The last state of every point, by its first seed that is finished.
-    void draw_sheet(const std::vector<SweepRow>& rows) {
-        const TemporaryFolder place(output_); // a picture of that name may be somebody's
-        FigureFrames figure(place.path);
-        std::size_t last = 0, drawn = 0;
-        for (const SweepRow& row : rows) {
-            if (row.failed() || row.run == last || drawn == most_on_sheet)
-                continue;
-            request_.stop.check();
-            last = row.run;
-            RunFolder folder(row.folder);
-            folder.scene.description = name_of(row);
-            const Moment moment = folder.read(folder.snapshots.back());
-            figure.add({folder.scene, folder.parts, moment.state, moment.events},
-                       report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
-                                     moment.state, RunHistory(folder)));
-            ++drawn;
-        }
-        if (drawn == 0)
-            return;
-        figure.draw("multiples");
-        fs::rename(place.path / "multiples.png", output_ / "sheet.png");
     }
 
     const SweepRequest& request_;

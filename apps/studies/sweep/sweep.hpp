@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/support/machine/stop.hpp"
+#include "apps/run/batch.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -14,15 +14,10 @@ struct SweepTask {
 };
 
 /// A call of `listric sweep`.
-struct SweepRequest {
+struct SweepRequest : ManyRuns {
     std::filesystem::path plan;
-    std::filesystem::path output;             ///< empty: out/sweep-NAME
-    int jobs = 1;                             ///< runs at a time
-    int threads = 1;                          ///< of a run
     std::optional<SweepTask> task;            ///< none: all runs
     std::vector<std::filesystem::path> merge; ///< folders of tasks, to be read instead of run
-    bool quiet = false;
-    StopToken stop = {};
 };
 
 /// Makes the runs of a plan (docs/guides/sweeps.md) and leaves sweep.csv, effects.csv, sheet.png

@@ -1,10 +1,11 @@
 #include "apps/studies/sweep/sweep_effects.hpp"
 
-#include "apps/studies/sweep/student.hpp"
-
 #include <Eigen/Dense>
+#include <fmt/format.h>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -101,6 +102,20 @@ void add_chance(SweepEffect& effect, const Variance& variance, double square_of_
     effect.margin_95 = error * student_quantile(0.95, variance.degrees_of_freedom);
 }
 
+/// Whether chance alone gives an effect like that in fewer than one of twenty sweeps.
+bool is_clear(const SweepEffect& effect) { return effect.p && *effect.p < 0.05; }
+
+bool is_of_two(const SweepEffect& effect) { return effect.term.find(':') != std::string::npos; }
+
+std::string effect_row(const SweepEffect& e, std::size_t measure_width, std::size_t term_width) {
+    const std::string names = fmt::format("{:<{}}  {:<{}}  {:>10.3g}", e.measure, measure_width,
+                                          e.term, term_width, e.effect);
+    if (!e.p)
+        return names + "\n";
+    return fmt::format("{}  {:>9.2g}  {:>4}  {:>8.2g}  {}", names, *e.margin_95,
+                       e.degrees_of_freedom, *e.p, is_clear(e) ? "clear\n" : "may be chance\n");
+}
+
 } // namespace
 
 std::vector<SweepEffect> effects_on(const std::string& measure,
@@ -162,6 +177,70 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
         effects.push_back(std::move(effect));
     }
     return effects;
+}
+
+std::string effects_csv(std::span<const SweepEffect> effects) {
+    std::string text = "measure,term,effect,standard_error,degrees_of_freedom,p,low_95,high_95\n";
+    for (const SweepEffect& e : effects) {
+        text += fmt::format("{},{},{:.6g},", e.measure, e.term, e.effect);
+        text += e.p ? fmt::format("{:.3g},{},{:.3g},{:.6g},{:.6g}\n", *e.standard_error,
+                                  e.degrees_of_freedom, *e.p, e.effect - *e.margin_95,
+                                  e.effect + *e.margin_95)
+                    : ",,,,\n";
+    }
+    return text;
+}
+
+std::string effects_text(std::span<const SweepEffect> effects) {
+    std::size_t measure_width = 7, term_width = 4, left_out = 0;
+    for (const SweepEffect& e : effects) {
+        measure_width = std::max(measure_width, e.measure.size());
+        term_width = std::max(term_width, e.term.size());
+    }
+    std::string text =
+        fmt::format("{:<{}}  {:<{}}  {:>10}  {:>9}  {:>4}  {:>8}\n", "measure", measure_width,
+                    "term", term_width, "effect", "+- 95 %", "df", "p");
+    for (const SweepEffect& e : effects)
+        if (is_of_two(e) && !is_clear(e))
+            ++left_out;
+        else
+            text += effect_row(e, measure_width, term_width);
+    if (left_out > 0)
+        text +=
+            fmt::format("effects.csv has {} more, of two parameters together, that {}\n", left_out,
+                        effects.front().p ? "may be chance" : "have no standard error");
+    return effects.empty() ? "" : text;
+}
+
+std::string warning_of_few(int seeds) {
+    if (seeds >= 3)
+        return "";
+    return seeds == 1
+               ? "one seed shows nothing of chance: effects have neither standard errors nor p; "
+                 "three seeds or more do (seeds = 3)"
+               : "two seeds show little of chance: by Student's t an effect of one parameter with "
+                 "two values must be 12.7 standard errors large to be clear, with three seeds 4.3 "
+                 "(seeds = 3)";
+}
+
+double student_p(double t, double degrees_of_freedom) {
+    assert(degrees_of_freedom > 0.0);
+    if (std::isinf(t))
+        return 0.0;
+    // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.27.
+    return Eigen::numext::betainc(0.5 * degrees_of_freedom, 0.5,
+                                  degrees_of_freedom / (degrees_of_freedom + t * t));
+}
+
+double student_quantile(double probability, double degrees_of_freedom) {
+    assert(probability > 0.0 && probability < 1.0);
+    const double beyond = 1.0 - probability;
+    double low = 0.0, high = 1.0;
+    while (student_p(high, degrees_of_freedom) > beyond)
+        high *= 2.0;
+    for (double middle = 0.5 * high; low < middle && middle < high; middle = 0.5 * (low + high))
+        (student_p(middle, degrees_of_freedom) > beyond ? low : high) = middle;
+    return high;
 }
 
 } // namespace listric

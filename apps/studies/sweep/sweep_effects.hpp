@@ -49,4 +49,23 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
                                     std::span<const std::size_t> point, std::span<const int> seed,
                                     std::span<const std::optional<double>> values);
 
+/// effects.csv: measure, term, effect, standard_error, degrees_of_freedom, p, low_95, high_95; from
+/// standard_error on empty where nothing is known of chance.
+std::string effects_csv(std::span<const SweepEffect> effects);
+
+/// Effects as text: each parameter's own, and of two together those that are clear.
+std::string effects_text(std::span<const SweepEffect> effects);
+
+/// Warning of too few seeds; empty from three seeds on.
+std::string warning_of_few(int seeds);
+
+// Student's distribution (Student 1908): of a mean over its standard error, which is itself known
+// from so many degrees of freedom, above 0.
+
+/// How likely chance alone gives a value as far from 0 or further, to either side.
+double student_p(double t, double degrees_of_freedom);
+
+/// How many standard errors to either side hold the truth with that probability, in (0, 1).
+double student_quantile(double probability, double degrees_of_freedom);
+
 } // namespace listric

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -34,45 +35,32 @@ struct SweepPlanText {
     std::string set, without;
 };
 
-const std::vector<Parameter>& plan_parameters() {
+PlanTable<SweepPlanText> plan_table() {
     using T = SweepPlanText;
     using P = SweepPlan;
-    static const std::vector<Parameter> parameters{
-        {"scene", at<&T::plan, &P::scene>, "", {}, "", "scene that is run"},
-        {"accuracy", at<&T::plan, &P::accuracy>, "", {}, "", "level; empty: the scene's"},
-        {"set", at<&T::set>, "", {}, "", "changes for every run, table.key=value"},
-        {"without", at<&T::without>, "", {}, "", "tables taken out of every run"},
-        {"seeds",
-         at<&T::plan, &P::seeds>,
-         "",
-         {.from = 1, .to = 1000},
-         "",
-         "number of runs per point"},
-        {"first_seed",
-         at<&T::plan, &P::first_seed>,
-         "",
-         {.from = 0, .to = 1e9},
-         "",
-         "first of the seeds"},
-        {"design",
-         one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
-         "",
-         {},
-         "",
-         "how values are combined"},
-        {"samples",
-         at<&T::plan, &P::samples>,
-         "",
-         {.from = 0, .to = static_cast<double>(most_runs)},
-         "",
-         "number of points of a Latin hypercube"}};
-    return parameters;
+    constexpr double most = most_runs;
+    return {
+        "",
+        {plan_key("scene", at<&T::plan, &P::scene>, "scene that is run"),
+         plan_key("accuracy", at<&T::plan, &P::accuracy>, "level; empty: the scene's"),
+         plan_key("set", at<&T::set>, "changes for every run, table.key=value"),
+         plan_key("without", at<&T::without>, "tables taken out of every run"),
+         plan_key("seeds", at<&T::plan, &P::seeds>, "number of runs per point", between(1, 1000)),
+         plan_key("first_seed", at<&T::plan, &P::first_seed>, "first of the seeds",
+                  between(0, 1e9)),
+         plan_key("design", one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
+                  "how values are combined"),
+         plan_key("samples", at<&T::plan, &P::samples>, "number of points of a Latin hypercube",
+                  between(0, most))},
+        {},
+        {"measures", "vary"}};
 }
 
-const std::vector<Parameter>& varied_parameters() {
-    static const std::vector<Parameter> parameters{
-        {"parameter", at<&SweepParameter::name>, "", {}, "", "table.key of what varies"}};
-    return parameters;
+PlanTable<SweepParameter> varied_table() {
+    return {"parameters that vary",
+            {plan_key("parameter", at<&SweepParameter::name>, "table.key of what varies")},
+            {"parameter"},
+            {"values", "range"}};
 }
 
 SweepValue value_of(const Entry& entry) {
@@ -145,63 +133,47 @@ std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepPara
     }
 }
 
-/// Refuses the last value where an earlier one makes the same run.
-/// @param made  scenes by value
-void check_new(const Entry& entry, const SweepParameter& parameter,
-               const std::vector<std::string>& made) {
-    for (std::size_t k = 0; k + 1 < made.size(); ++k) {
-        const bool is_again = parameter.values[k].text == parameter.values.back().text;
-        if (made[k] == made.back())
-            fail(entry, is_again ? std::string("stands twice; leave one out")
-                                 : fmt::format("makes the same run as {}: {} has no effect in this "
-                                               "scene; leave one out",
-                                               parameter.values[k].text, parameter.name));
-    }
-}
-
 SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
-    SweepParameter parameter;
-    read_table(entry, varied_parameters(), &parameter, {"values", "range"});
-    need(entry, "parameter", !parameter.name.empty());
+    SweepParameter parameter = varied_table().read(entry);
     check_parameter(entry, plan, parameter.name);
     const toml::table& table = *entry.node.as_table();
-    const toml::node* const values = table.get("values");
-    const toml::node* const range = table.get("range");
-    if (!values == !range)
+    const bool is_range = table.contains("range");
+    if (is_range == table.contains("values"))
         fail(entry, "needs either values or range");
-    if (values) {
-        const Entry list{*values, entry.path + ".values"};
-        std::vector<std::string> made;
-        for (const Entry& element : elements(list, "an array of values")) {
-            parameter.values.push_back(value_of(element));
-            if (plan.design == SweepDesign::list) // its values need not make a scene alone
-                continue;
-            made.push_back(try_value(plan, element, parameter, parameter.values.back()));
-            check_new(element, parameter, made);
-        }
-        if (parameter.values.empty())
-            fail(list, "is empty, needs at least one value");
-        return parameter;
+    const char* const key = is_range ? "range" : "values";
+    const Entry list{*table.get(key), fmt::format("{}.{}", entry.path, key)};
+    if (is_range && plan.design != SweepDesign::latin_hypercube)
+        fail(list, "is for design = \"latin-hypercube\"; a grid or a list needs values");
+    const std::vector<Entry> given =
+        elements(list, is_range ? "[least, greatest]" : "an array of values");
+    if (is_range && given.size() != 2)
+        fail(list, "needs two numbers, [least, greatest]");
+    if (given.empty())
+        fail(list, "is empty, needs at least one value");
+    std::ranges::transform(given, std::back_inserter(parameter.values), value_of);
+    if (is_range) {
+        const auto least = parameter.values[0].number, greatest = parameter.values[1].number;
+        if (!least || !greatest || !(*least < *greatest))
+            fail(list, "needs two numbers, the first less than the second");
+        parameter.range = {*least, *greatest};
     }
-    const Entry pair{*range, entry.path + ".range"};
-    if (plan.design != SweepDesign::latin_hypercube)
-        fail(pair, "is for design = \"latin-hypercube\"; a grid or a list needs values");
-    const std::vector<Entry> ends = elements(pair, "[least, greatest]");
-    if (ends.size() != 2)
-        fail(pair, "needs two numbers, [least, greatest]");
-    const auto least = value_of(ends[0]).number, greatest = value_of(ends[1]).number;
-    if (!least || !greatest || !(*least < *greatest))
-        fail(pair, "needs two numbers, the first less than the second");
-    parameter.range = {*least, *greatest};
-    parameter.values = {value_of(ends[0]), value_of(ends[1])};
-    std::vector<std::string> made;
-    for (std::size_t k = 0; k < 2; ++k) {
-        made.push_back(try_value(plan, ends[k], parameter, parameter.values[k]));
-        check_new(ends[k], parameter, made);
+    std::map<std::string, std::string> known; // by the scene that they make; of a list none need do
+    for (std::size_t k = 0; k < given.size() && plan.design != SweepDesign::list; ++k) {
+        const std::string& text = parameter.values[k].text;
+        const auto [earlier, is_new] =
+            known.emplace(try_value(plan, given[k], parameter, parameter.values[k]), text);
+        if (!is_new)
+            fail(given[k], earlier->second == text
+                               ? std::string("stands twice; leave one out")
+                               : fmt::format("makes the same run as {}: {} has no effect in this "
+                                             "scene; leave one out",
+                                             earlier->second, parameter.name));
     }
-    try_value(plan, pair, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
-              "; a range takes values between its ends, values = [...] only those listed");
-    parameter.values.clear();
+    if (is_range) {
+        try_value(plan, list, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
+                  "; a range takes values between its ends, values = [...] only those listed");
+        parameter.values.clear();
+    }
     return parameter;
 }
 
@@ -334,8 +306,7 @@ std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
 SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     const toml::table document = shelf.read(file);
     const Entry top{document, ""};
-    SweepPlanText text;
-    read_table(top, plan_parameters(), &text, {"measures", "vary"});
+    SweepPlanText text = plan_table().read(top);
     SweepPlan& plan = text.plan;
     plan.name = file.stem().string();
     if (const std::string why = objection_to_name("sweep-" + plan.name); !why.empty())
@@ -417,8 +388,9 @@ std::vector<SweepPoint> sweep_points(const SweepPlan& plan) {
     return points;
 }
 
-std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point) {
-    std::string text = fmt::format("run {}", k + 1);
+std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point,
+                          std::string_view seed) {
+    std::string text = fmt::format("run {}{}", k + 1, seed);
     for (std::size_t p = 0; p < plan.parameters.size(); ++p)
         text += fmt::format(", {}={}", plan.parameters[p].name, point[p].text);
     return text;
@@ -442,11 +414,7 @@ std::vector<std::string> check_points(const SweepPlan& plan, std::span<const Swe
 }
 
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed) {
-    SceneRequest request;
-    request.scene = plan.scene;
-    request.set = plan.set;
-    request.without = plan.without;
-    request.seed = seed;
+    SceneRequest request{plan.scene, plan.set, plan.without, {}, seed};
     if (!plan.accuracy.empty())
         request.accuracy = plan.accuracy;
     for (std::size_t k = 0; k < point.size(); ++k)
@@ -456,24 +424,23 @@ Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed
 
 std::string sweep_schema() {
     using Json = nlohmann::ordered_json;
-    const auto array_of = [](const char* doc, Json items, int least) {
-        return Json{{"type", "array"}, {"description", doc}, {"items", items}, {"minItems", least}};
+    const auto at_least = [](Json array, int least) {
+        array["minItems"] = least;
+        return array;
     };
-    const SweepParameter parameter;
-    Json varied = table_schema("", varied_parameters(), &parameter);
-    varied["properties"]["values"] =
-        array_of("values to try", {{"type", {"number", "string", "boolean"}}}, 1);
-    varied["properties"]["range"] =
-        array_of("least and greatest, for a Latin hypercube", {{"type", "number"}}, 2);
-    varied["properties"]["range"]["maxItems"] = 2;
-    varied["required"] = {"parameter"};
+    Json varied = varied_table().schema();
+    Json& properties = varied["properties"];
+    properties["values"] =
+        at_least(array_of("values to try", {{"type", {"number", "string", "boolean"}}}), 1);
+    properties["range"] =
+        at_least(array_of("least and greatest, for a Latin hypercube", {{"type", "number"}}), 2);
+    properties["range"]["maxItems"] = 2;
     varied["oneOf"] = Json::array({{{"required", {"values"}}}, {{"required", {"range"}}}});
 
-    const SweepPlanText text;
-    Json schema = table_schema("", plan_parameters(), &text);
+    Json schema = plan_table().schema();
     schema["properties"]["measures"] =
-        array_of("measures of every run", measure_schema(MeasuredAt::end_or_snapshot), 0);
-    schema["properties"]["vary"] = array_of("parameters that vary", varied, 1);
+        at_least(array_of("measures of every run", measure_schema(MeasuredAt::end_or_snapshot)), 0);
+    schema["properties"]["vary"] = at_least(array_of(varied_table().doc, varied), 1);
     schema["required"] = {"scene", "measures", "vary"};
     return finished_schema("A sweep plan of Listric", schema);
 }

@@ -59,8 +59,9 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file);
 using SweepPoint = std::vector<SweepValue>;
 std::vector<SweepPoint> sweep_points(const SweepPlan& plan);
 
-/// "run 3, material.friction=0.5": point k, from 0.
-std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point);
+/// "run 3, material.friction=0.5": point k, from 0; `seed` stands behind its number.
+std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point,
+                          std::string_view seed = "");
 
 /// Tries points: values may each make a scene alone, but none together. Throws SceneError with the
 /// point and the plan's file. Returns the scenes' warnings, each with the first point that has it.

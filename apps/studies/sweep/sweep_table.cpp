@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -104,12 +103,10 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
             return *value;
         };
         const auto whole = [&](const std::string& cell) {
-            int value = 0;
-            const char* const end = cell.data() + cell.size();
-            if (const auto [at, error] = std::from_chars(cell.data(), end, value);
-                at != end || error != std::errc())
+            const double value = number(cell);
+            if (std::abs(value) > 1e9 || cell != fmt::format("{:.0f}", value))
                 refuse_row();
-            return value;
+            return static_cast<int>(value);
         };
         if (cells.size() != all)
             refuse_row();

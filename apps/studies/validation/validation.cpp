@@ -4,12 +4,9 @@
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/folder/provenance.hpp"
-#include "apps/archive/folder/run_folder.hpp"
-#include "apps/archive/folder/setting.hpp"
-#include "apps/figures/figures.hpp"
-#include "apps/measures/faults/fault_history.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/batch.hpp"
+#include "apps/studies/pictured_states.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
 #include "apps/studies/validation/validation_report.hpp"
@@ -59,10 +56,6 @@ Origin finished_run(const fs::path& folder, const std::string& accuracy, int see
     return {text_at(json, "state_hash"), text_at(from, "scene_hash"),
             text_at(from, "version") + (commit.empty() ? "" : "+" + commit), std::string(version),
             std::string(measures_hash)};
-}
-
-fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
-    return request.output.empty() ? runs / "validation.md" : request.output;
 }
 
 ValidationPlan plan_of(const ValidationRequest& request) {
@@ -128,18 +121,18 @@ public:
         : request_(request),
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
-          document_(document_of(request, runs_)), names_(chosen_runs(plan, request.only)),
-          seeds_(seeds_of_call(request, plan)), findings_{plan,
-                                                          request.plan.empty()
-                                                              ? "apps/studies/validation.toml"
-                                                              : request.plan.string(),
-                                                          {},
-                                                          {},
-                                                          store_,
-                                                          request.accuracy,
-                                                          seeds_of_document(request, plan),
-                                                          document_.parent_path() /
-                                                              document_.stem()} {
+          document_(request.output.empty() ? runs_ / "validation.md" : request.output),
+          names_(chosen_runs(plan, request.only)),
+          seeds_(seeds_of_call(request, plan)), findings_{.plan = plan,
+                                                          .plan_name =
+                                                              request.plan.empty()
+                                                                  ? "apps/studies/validation.toml"
+                                                                  : request.plan.string(),
+                                                          .store = store_,
+                                                          .accuracy = request.accuracy,
+                                                          .seeds = seeds_of_document(request, plan),
+                                                          .beside = document_.parent_path() /
+                                                                    document_.stem()} {
         require_own_files();
         make_folder(findings_.beside);
         lock_.emplace(findings_.beside);
@@ -273,13 +266,11 @@ private:
     }
 
     Scene scene_of(const ValidationRun& run, int seed) const {
-        SceneRequest scene;
-        scene.scene = run.scene;
-        scene.set = run.set;
-        scene.without = run.without;
-        scene.accuracy = accuracy_of(run);
-        scene.seed = seed;
-        return load_scene(scene);
+        return load_scene({.scene = run.scene,
+                           .set = run.set,
+                           .without = run.without,
+                           .accuracy = accuracy_of(run),
+                           .seed = seed});
     }
 
     /// Refuses a finished run that was made by another plan. A scene that this program cannot read
@@ -317,17 +308,11 @@ private:
                 request_.stop.check();
                 if (!finished(run, seed).state_hash.empty() || findings_.is_recorded(run, seed))
                     continue;
-                RunOptions options;
-                options.output = folder_of(run, seed);
-                options.threads = request_.threads;
-                options.quiet = request_.quiet || request_.jobs > 1;
-                options.report = false;
-                options.stop = request_.stop;
-                runs.push_back({run_name(run.name, seed), scene_of(run, seed), std::move(options)});
+                runs.push_back({run_name(run.name, seed), scene_of(run, seed),
+                                request_.options_of_run(folder_of(run, seed), true)});
             }
         }
-        const std::vector<BatchEnding> endings =
-            make_runs(runs, request_.jobs, log_, request_.stop);
+        const std::vector<BatchEnding> endings = make_runs(runs, request_, log_);
         for (std::size_t k = 0; k < runs.size(); ++k) {
             if (endings[k].exit_code == 0)
                 continue;
@@ -369,61 +354,40 @@ private:
                     (findings_.beside / "measures.csv").string(), m->second.from.state_hash));
     }
 
-    /// A state on a picture.
-    struct Frame {
-        std::string run;
-        int seed;
-        double at; ///< extension, m
-    };
-
     /// The states of a picture that are there; none if those of a row are missing, since half of a
     /// comparison shows nothing, or if a picture is there that shows more.
-    std::vector<Frame> frames_of(const ValidationPicture& picture, bool whole) const {
-        std::vector<Frame> frames;
+    std::vector<PicturedState> states_of(const ValidationPicture& picture, bool whole) const {
+        std::vector<PicturedState> states;
         for (const auto& row : picture.rows) {
             const ValidationRun& run = findings_.plan.run(row.run);
             std::vector<int> seeds = findings_.seeds_of(run);
             if (row.seeds > 0 && std::ssize(seeds) > row.seeds)
                 seeds.resize(static_cast<std::size_t>(row.seeds));
-            const std::size_t before = frames.size();
+            const std::size_t before = states.size();
             for (int seed : seeds)
                 if (!finished(run, seed).state_hash.empty())
-                    frames.push_back({row.run, seed, row.at});
-            if (frames.size() == before || (whole && frames.size() < before + seeds.size()))
+                    states.push_back(
+                        {folder_of(run, seed),
+                         fmt::format("{}, seed {}, {}", row.run, seed, extension_text(row.at)),
+                         row.at});
+            if (states.size() == before || (whole && states.size() < before + seeds.size()))
                 return {};
         }
-        return frames;
+        return states;
     }
 
     /// Draws a picture that is not there or has a run that was measured in this call.
     void draw(const ValidationPicture& picture) {
         const fs::path file = findings_.beside / (picture.name + ".png");
-        const std::vector<Frame> frames = frames_of(picture, fs::exists(file));
+        const std::vector<PicturedState> states = states_of(picture, fs::exists(file));
         const bool renewed =
             !fs::exists(file) || std::ranges::any_of(picture.rows, [&](const auto& row) {
                 return renewed_.contains(row.run);
             });
-        if (frames.empty() || !renewed)
+        if (states.empty() || !renewed)
             return;
-        request_.stop.check();
         log_.say(fmt::format("drawing {}", file.string()));
-        const TemporaryFolder place(findings_.beside); // a picture of that name may be somebody's
-        FigureFrames figure(place.path);
-        for (const Frame& frame : frames) {
-            RunFolder folder(folder_of(findings_.plan.run(frame.run), frame.seed));
-            const fs::path path =
-                *std::ranges::min_element(folder.snapshots, {}, [&](const fs::path& snapshot) {
-                    return std::abs(snapshot_extension(snapshot) - frame.at);
-                });
-            const Moment moment = folder.read(path);
-            folder.scene.description =
-                fmt::format("{}, seed {}, {}", frame.run, frame.seed, extension_text(frame.at));
-            figure.add({folder.scene, folder.parts, moment.state, moment.events},
-                       report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
-                                     moment.state, RunHistory(folder)));
-        }
-        figure.draw("gallery");
-        fs::rename(place.path / "gallery.png", file);
+        draw_states(states, "gallery", file, request_.stop);
     }
 
     const ValidationRequest& request_;

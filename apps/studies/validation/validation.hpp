@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/support/machine/stop.hpp"
+#include "apps/run/batch.hpp"
 
 #include <filesystem>
 #include <string>
@@ -9,21 +9,17 @@
 namespace listric {
 
 /// A call of `listric validate`.
-struct ValidationRequest {
+/// Its output is the document; empty: validation.md beside the runs.
+struct ValidationRequest : ManyRuns {
     std::string accuracy = "standard";
     std::vector<int> seeds;        ///< that this call runs and measures; empty: those of the plan
     int number = 0;                ///< of the plan's seeds, the first ones; 0: all
-    int jobs = 1;                  ///< runs at a time
-    int threads = 1;               ///< of a run
     std::filesystem::path runs;    ///< folder of the runs; empty: out/validation-ACCURACY
-    std::filesystem::path output;  ///< document; empty: validation.md beside the runs
     std::filesystem::path plan;    ///< empty: apps/studies/validation.toml
     std::vector<std::string> only; ///< experiments; empty: all
     bool remeasure = false;        ///< even runs that are measured already
     bool without_runs = false;     ///< takes the runs that are there
     bool mixed = false;            ///< adds to a record of other definitions or parameters
-    bool quiet = false;
-    StopToken stop = {};
 };
 
 /// Makes the runs that are not recorded, measures them from their snapshots and writes the document

@@ -35,65 +35,54 @@ struct RunText {
     std::string set, without;
 };
 
-const std::vector<Parameter>& run_parameters() {
+PlanTable<RunText> run_table() {
     using T = RunText;
     using R = ValidationRun;
-    static const std::vector<Parameter> parameters{
-        {"name", at<&T::run, &R::name>, "", {}, "", "name of the folders"},
-        {"scene", at<&T::run, &R::scene>, "", {}, "", "scene that is run"},
-        {"set", at<&T::set>, "", {}, "", "changes, table.key=value"},
-        {"without", at<&T::without>, "", {}, "", "tables taken out"},
-        {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
-        {"accuracy", at<&T::run, &R::accuracy>, "", {}, "", "if always the same"},
-        {"at_m", at<&T::run, &R::at>, "m", {.from = 0, .to = 1e6}, "", "measured there"}};
-    return parameters;
+    return {"runs, a folder for each seed",
+            {plan_key("name", at<&T::run, &R::name>, "name of the folders"),
+             plan_key("scene", at<&T::run, &R::scene>, "scene that is run"),
+             plan_key("set", at<&T::set>, "changes, table.key=value"),
+             plan_key("without", at<&T::without>, "tables taken out"),
+             plan_key("seeds", at<&T::run, &R::seeds>, "0: all", between(0, 1000)),
+             plan_key("accuracy", at<&T::run, &R::accuracy>, "if always the same"),
+             plan_key("at_m", at<&T::run, &R::at>, "measured there", between(0, 1e6), "m")},
+            {"name", "scene", "at_m"}};
 }
 
 ValidationRun read_run(const Entry& entry) {
-    RunText text;
-    read_table(entry, run_parameters(), &text);
-    ValidationRun& run = text.run;
-    run.set = words(text.set);
-    run.without = words(text.without);
-    need_name(entry, "name", run.name);
-    need(entry, "scene", !run.scene.empty());
-    need(entry, "at_m", !run.at.empty());
-    return run;
+    RunText text = run_table().read(entry);
+    need_name(entry, "name", text.run.name);
+    text.run.set = words(text.set);
+    text.run.without = words(text.without);
+    return text.run;
 }
 
-const std::vector<Parameter>& expectation_parameters() {
+PlanTable<Expectation> expectation_table() {
     using E = Expectation;
-    static const std::vector<Parameter> parameters{
-        {"kind", one_of<&E::kind>(kinds), "", {}, "", "kind of the row"},
-        {"measure", at<&E::measure>, "", {}, "", "name"},
-        {"over", at<&E::over>, "", {}, "", "measure by which it is divided"},
-        {"what", at<&E::what>, "", {}, "", "for people"},
-        {"run", at<&E::run>, "", {}, "", "default: the first"},
-        {"minus", at<&E::minus>, "", {}, "", "run whose value is taken off"},
-        {"at_m", at<&E::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
-        {"since_m", at<&E::since>, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
-        {"unit", at<&E::unit>, "", {.above = 0}, "", "value over this is shown"},
-        {"digits", at<&E::digits>, "", {.from = 0, .to = 9}, "", "after the point"},
-        {"expected", at<&E::expected>, "", {}, "", "value of the source"},
-        {"tolerance",
-         at<&E::tolerance>,
-         "",
-         {.from = 0},
-         "",
-         "most that a value may differ from it"},
-        {"least", at<&E::least>, "", {}, "", "least value"},
-        {"most", at<&E::most>, "", {}, "", "greatest value"},
-        {"words", at<&E::words>, "", {}, "", "quoted: what says so"},
-        {"source", at<&E::source>, "", {}, "", "figure and moment, or formula"},
-        {"reason", at<&E::reason>, "", {}, "", "why it has no verdict"}};
-    return parameters;
+    return {"rows of the table",
+            {plan_key("kind", one_of<&E::kind>(kinds), "kind of the row"),
+             plan_key("measure", at<&E::measure>, "name"),
+             plan_key("over", at<&E::over>, "measure by which it is divided"),
+             plan_key("what", at<&E::what>, "for people"),
+             plan_key("run", at<&E::run>, "default: the first"),
+             plan_key("minus", at<&E::minus>, "run whose value is taken off"),
+             plan_key("at_m", at<&E::at>, "extension", between(0, 1e6), "m"),
+             plan_key("since_m", at<&E::since>, "extension taken off", between(0, 1e6), "m"),
+             plan_key("unit", at<&E::unit>, "value over this is shown", {.above = 0}),
+             plan_key("digits", at<&E::digits>, "after the point", between(0, 9)),
+             plan_key("expected", at<&E::expected>, "value of the source"),
+             plan_key("tolerance", at<&E::tolerance>, "most that a value may differ from it",
+                      {.from = 0}),
+             plan_key("least", at<&E::least>, "least value"),
+             plan_key("most", at<&E::most>, "greatest value"),
+             plan_key("words", at<&E::words>, "quoted: what says so"),
+             plan_key("source", at<&E::source>, "figure and moment, or formula"),
+             plan_key("reason", at<&E::reason>, "why it has no verdict")},
+            {"measure", "what"}};
 }
 
 Expectation read_expectation(const Entry& entry) {
-    Expectation e;
-    read_table(entry, expectation_parameters(), &e);
-    need(entry, "measure", !e.measure.empty());
-    need(entry, "what", !e.what.empty());
+    Expectation e = expectation_table().read(entry);
     if (e.expected && (e.least || e.most))
         fail(entry, "has expected and least or most: one or the other");
     if (e.least && e.most && *e.least > *e.most)
@@ -103,48 +92,36 @@ Expectation read_expectation(const Entry& entry) {
     return e;
 }
 
-const std::vector<Parameter>& picture_parameters() {
-    static const std::vector<Parameter> parameters{
-        {"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
-        {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}};
-    return parameters;
+PlanTable<ValidationPicture> picture_table() {
+    return {"pictures of states",
+            {plan_key("name", at<&ValidationPicture::name>, "name of the file"),
+             plan_key("caption", at<&ValidationPicture::caption>, "below it")},
+            {"name"},
+            {"rows"}};
 }
 
-const std::vector<Parameter>& picture_row_parameters() {
+PlanTable<ValidationPicture::Row> picture_row_table() {
     using Row = ValidationPicture::Row;
-    static const std::vector<Parameter> parameters{
-        {"run", at<&Row::run>, "", {}, "", "drawn"},
-        {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
-        {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}};
-    return parameters;
+    return {"states below each other",
+            {plan_key("run", at<&Row::run>, "drawn"),
+             plan_key("at_m", at<&Row::at>, "extension", between(0, 1e6), "m"),
+             plan_key("seeds", at<&Row::seeds>, "0: all", between(0, 1000))}};
 }
 
 ValidationPicture read_picture(const Entry& entry) {
-    ValidationPicture picture;
-    read_table(entry, picture_parameters(), &picture, {"rows"});
+    ValidationPicture picture = picture_table().read(entry);
     need_name(entry, "name", picture.name);
-    for (const Entry& item : tables(entry, "rows")) {
-        ValidationPicture::Row row;
-        read_table(item, picture_row_parameters(), &row);
-        picture.rows.push_back(row);
-    }
+    for (const Entry& item : tables(entry, "rows"))
+        picture.rows.push_back(picture_row_table().read(item));
     return picture;
 }
 
-const std::vector<Parameter>& dropped_parameters() {
-    static const std::vector<Parameter> parameters{
-        {"what", at<&DroppedRow::what>, "", {}, "", "row that was"},
-        {"asked", at<&DroppedRow::asked>, "", {}, "", "expected once"},
-        {"reason", at<&DroppedRow::reason>, "", {}, "", "why it is no more"}};
-    return parameters;
-}
-
-DroppedRow read_dropped(const Entry& entry) {
-    DroppedRow row;
-    read_table(entry, dropped_parameters(), &row);
-    need(entry, "what", !row.what.empty());
-    need(entry, "reason", !row.reason.empty());
-    return row;
+PlanTable<DroppedRow> dropped_table() {
+    return {"rows that are no more",
+            {plan_key("what", at<&DroppedRow::what>, "row that was"),
+             plan_key("asked", at<&DroppedRow::asked>, "expected once"),
+             plan_key("reason", at<&DroppedRow::reason>, "why it is no more")},
+            {"what", "reason"}};
 }
 
 /// Seeds of a key that may be absent. Throws SceneError.
@@ -163,19 +140,20 @@ struct ExperimentText {
     std::string runs, seen_of;
 };
 
-const std::vector<Parameter>& experiment_parameters() {
+PlanTable<ExperimentText> experiment_table() {
     using T = ExperimentText;
     using X = ValidationExperiment;
-    static const std::vector<Parameter> parameters{
-        {"name", at<&T::experiment, &X::name>, "", {}, "", "for --only"},
-        {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
-        {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
-        {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
-        {"seen_of", at<&T::seen_of>, "", {}, "", "seeds of these pictures"},
-        {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
-        {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
-        {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
-    return parameters;
+    return {"what is expected of them",
+            {plan_key("name", at<&T::experiment, &X::name>, "for --only"),
+             plan_key("title", at<&T::experiment, &X::title>, "heading"),
+             plan_key("about", at<&T::experiment, &X::about>, "before the table"),
+             plan_key("seen", at<&T::experiment, &X::seen>, "in the pictures"),
+             plan_key("seen_of", at<&T::seen_of>, "seeds of these pictures"),
+             plan_key("runs", at<&T::runs>, "names of runs; the first is judged"),
+             plan_key("like", at<&T::experiment, &X::like>, "has this one's expectations, too"),
+             plan_key("compare", at<&T::experiment, &X::compare>, "run whose values stand beside")},
+            {"name", "runs"},
+            {"expect", "dropped", "picture"}};
 }
 
 /// Expectations of an experiment for other runs in the places of its own. Without those that
@@ -203,13 +181,10 @@ std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
 ValidationExperiment
 read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& before,
                 const std::function<void(const Entry&, const std::string&)>& check_measure) {
-    ExperimentText text;
-    read_table(entry, experiment_parameters(), &text, {"expect", "dropped", "picture"});
+    ExperimentText text = experiment_table().read(entry);
     ValidationExperiment& x = text.experiment;
     x.runs = words(text.runs);
     x.seen_of = read_seeds(entry, "seen_of", text.seen_of);
-    need(entry, "name", !x.name.empty());
-    need(entry, "runs", !x.runs.empty());
     if (!x.like.empty()) {
         const auto other = std::ranges::find(before, x.like, &ValidationExperiment::name);
         if (other == before.end())
@@ -228,7 +203,7 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
     }
     std::ranges::stable_sort(x.expectations, {}, &Expectation::kind);
     for (const Entry& item : tables(entry, "dropped"))
-        x.dropped.push_back(read_dropped(item));
+        x.dropped.push_back(dropped_table().read(item));
     for (const Entry& item : tables(entry, "picture"))
         x.pictures.push_back(read_picture(item));
     return x;
@@ -260,19 +235,19 @@ struct ValidationText {
     std::string extends, seeds;
 };
 
-const std::vector<Parameter>& validation_parameters() {
-    static const std::vector<Parameter> parameters{
-        {"extends", at<&ValidationText::extends>, "", {}, "", "a plan"},
-        {"seeds", at<&ValidationText::seeds>, "", {}, "", "of the record"}};
-    return parameters;
+PlanTable<ValidationText> validation_table() {
+    return {"",
+            {plan_key("extends", at<&ValidationText::extends>, "a plan"),
+             plan_key("seeds", at<&ValidationText::seeds>, "of the record")},
+            {},
+            {"run", "experiment"}};
 }
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
-    ValidationText text;
-    read_table(top, validation_parameters(), &text, {"run", "experiment"});
+    const ValidationText text = validation_table().read(top);
     ValidationPlan plan;
     plan.seeds = read_seeds(top, "seeds", text.seeds);
     std::vector<ValidationExperiment> known; // that others can be like
@@ -353,38 +328,17 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
 }
 
 std::string validation_schema() {
-    using Json = nlohmann::ordered_json;
-    const auto array_of = [](const char* doc, const std::vector<Parameter>& parameters,
-                             const void* object, Json required) {
-        Json items = table_schema("", parameters, object);
-        if (!required.empty())
-            items["required"] = std::move(required);
-        return Json{{"type", "array"}, {"description", doc}, {"items", items}};
-    };
-    const RunText run;
-    const Expectation expectation;
-    const ValidationPicture picture;
-    const ValidationPicture::Row row;
-    const DroppedRow dropped;
-    const ExperimentText experiment;
-    const ValidationText plan;
-    Json schema = table_schema("", validation_parameters(), &plan);
-    schema["properties"]["run"] =
-        array_of("runs, a folder for each seed", run_parameters(), &run, {"name", "scene", "at_m"});
-    Json experiments = array_of("what is expected of them", experiment_parameters(), &experiment,
-                                {"name", "runs"});
-    Json& parts = experiments["items"]["properties"];
-    parts["expect"] =
-        array_of("rows of the table", expectation_parameters(), &expectation, {"measure", "what"});
+    nlohmann::ordered_json schema = validation_table().schema();
+    schema["properties"]["run"] = run_table().array_schema();
+    schema["properties"]["experiment"] = experiment_table().array_schema();
+    auto& parts = schema["properties"]["experiment"]["items"]["properties"];
+    parts["expect"] = expectation_table().array_schema();
     for (const char* key : {"measure", "over"})
         parts["expect"]["items"]["properties"][key].update(
             measure_schema(MeasuredAt::any_snapshot));
-    parts["dropped"] =
-        array_of("rows that are no more", dropped_parameters(), &dropped, {"what", "reason"});
-    parts["picture"] = array_of("pictures of states", picture_parameters(), &picture, {"name"});
-    parts["picture"]["items"]["properties"]["rows"] =
-        array_of("states below each other", picture_row_parameters(), &row, Json::array());
-    schema["properties"]["experiment"] = std::move(experiments);
+    parts["dropped"] = dropped_table().array_schema();
+    parts["picture"] = picture_table().array_schema();
+    parts["picture"]["items"]["properties"]["rows"] = picture_row_table().array_schema();
     return finished_schema("A validation plan of Listric", schema);
 }
 
@@ -419,9 +373,7 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
         v.no_case += !value;
         v.met += value && e.meets(*value);
     }
-    const ProbabilityLimits limits = probability_limits(v.met, v.of);
-    v.lower = limits.lower;
-    v.upper = limits.upper;
+    const auto [lower, upper] = probability_limits(v.met, v.of);
     const bool often = e.kind == Expectation::Kind::faults;
     if (values.empty())
         v.name = no_run;
@@ -430,13 +382,13 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
     else if (v.of == 0)
         v.name = no_case;
     else if (often)
-        v.name = v.lower > 0.5 ? shown : v.upper < 0.5 ? not_shown : open;
+        v.name = lower > 0.5 ? shown : upper < 0.5 ? not_shown : open;
     else
         v.name = v.met == v.of ? met : missed;
     v.text = name_of(v.name);
     if (e.is_judged() && v.of > 0) {
         v.text += fmt::format(" ({} of {}", v.met, v.of);
-        v.text += often ? fmt::format(": {:.2f} to {:.2f})", v.lower, v.upper) : ")";
+        v.text += often ? fmt::format(": {:.2f} to {:.2f})", lower, upper) : ")";
         if (v.no_case > 0)
             v.text += fmt::format(", {} no case", v.no_case);
     }

@@ -100,12 +100,9 @@ std::string validation_schema();
 struct Verdict {
     enum class Name { no_run, reported, no_case, shown, open, not_shown, met, missed };
     Name name = Name::no_run;
-    int met = 0, of = 0;             ///< seeds that have a value
-    int no_case = 0;                 ///< seeds that have none
-    double lower = 0.0, upper = 1.0; ///< limits of the probability that a seed meets it
-    std::string text; ///< "shown (18 of 20: 0.72 to 0.98)", "missed (4 of 5)", "reported"
-
-    bool is_good() const { return name == Name::shown || name == Name::met; }
+    int met = 0, of = 0; ///< seeds that have a value
+    int no_case = 0;     ///< seeds that have none
+    std::string text;    ///< "shown (18 of 20: 0.72 to 0.98)", "missed (4 of 5)", "reported"
 };
 
 /// "not shown"

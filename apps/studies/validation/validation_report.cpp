@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = Expectation::Kind;
-using VerdictName = Verdict::Name;
+using enum Verdict::Name;
 
 /// "38.20 ± 0.03 (38.17 to 38.24)"
 std::string summary(const Expectation& e, const std::vector<std::optional<double>>& all) {
@@ -40,65 +40,38 @@ std::string summary(const Expectation& e, const std::vector<std::optional<double
 
 /// "51 to 56, 60"
 std::string seeds_text(const std::vector<int>& seeds) {
-    std::vector<std::string> parts;
-    for (std::size_t k = 0; k < seeds.size();) {
-        std::size_t end = k + 1;
-        while (end < seeds.size() && seeds[end] == seeds[end - 1] + 1)
+    std::string text;
+    for (std::size_t k = 0, end = 0; k < seeds.size(); k = end) {
+        for (end = k + 1; end < seeds.size() && seeds[end] == seeds[end - 1] + 1;)
             ++end;
-        if (end == k + 1)
-            parts.push_back(fmt::format("{}", seeds[k]));
-        else
-            parts.push_back(fmt::format("{} to {}", seeds[k], seeds[end - 1]));
-        k = end;
+        text += fmt::format("{}{}", k > 0 ? ", " : "", seeds[k]);
+        if (end > k + 1)
+            text += fmt::format(" to {}", seeds[end - 1]);
     }
-    return fmt::format("{}", fmt::join(parts, ", "));
+    return text;
 }
 
 /// Seeds of a run by whether they are recorded: those that are, and those that are not.
 std::pair<std::vector<int>, std::vector<int>> recorded_seeds(const ValidationFindings& f,
-                                                             const ValidationRun& run) {
+                                                             const std::string& run) {
     std::pair<std::vector<int>, std::vector<int>> seeds;
-    for (int seed : f.seeds_of(run))
-        (f.is_recorded(run, seed) ? seeds.first : seeds.second).push_back(seed);
+    for (int seed : f.seeds_of(f.plan.run(run)))
+        (f.is_recorded(f.plan.run(run), seed) ? seeds.first : seeds.second).push_back(seed);
     return seeds;
 }
 
 /// "6 of 20": seeds of an experiment's first run that are recorded.
 std::string seeds_so_far(const ValidationFindings& f, const ValidationExperiment& x) {
-    const auto [there, missing] = recorded_seeds(f, f.plan.run(x.runs.front()));
+    const auto [there, missing] = recorded_seeds(f, x.runs.front());
     return fmt::format("{} of {}", there.size(), there.size() + missing.size());
 }
 
-/// Rows of an experiment's kind by verdict.
-std::array<int, 8> tally(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
-    std::array<int, 8> count{};
-    for (const Expectation& e : x.expectations)
-        if (e.kind == kind && e.is_judged())
-            ++count[static_cast<std::size_t>(f.verdict(e).name)];
-    return count;
-}
-
-int rows_with(const std::array<int, 8>& count, VerdictName name) {
-    return count[static_cast<std::size_t>(name)];
-}
-
-/// "7 of 7": rows that hold in every seed; empty where there is none.
-std::string held(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
-    const std::array<int, 8> count = tally(f, x, kind);
-    const int met = rows_with(count, VerdictName::met),
-              all = met + rows_with(count, VerdictName::missed);
-    return all > 0 ? fmt::format("{} of {}", met, all) : "";
-}
-
-/// Whether an experiment's faults are what the document is about: several seeds, and not beside an
-/// experiment that it is like.
-bool is_main(const ValidationFindings& f, const ValidationExperiment& x) {
-    return std::ranges::find(f.experiments, x.like, &ValidationExperiment::name) ==
-               f.experiments.end() &&
-           f.plan.run(x.runs.front()).seeds != 1 &&
-           std::ranges::any_of(x.expectations, [](const Expectation& e) {
-               return e.kind == Kind::faults && e.is_judged();
-           });
+/// Names of all runs of the document's experiments, which may share them.
+std::set<std::string> runs_of(const ValidationFindings& f) {
+    std::set<std::string> names;
+    for (const ValidationExperiment& x : f.experiments)
+        names.insert(x.runs.begin(), x.runs.end());
+    return names;
 }
 
 /// Verdict on a row by the seeds of the run beside it; `no_run` for rows of another run than the
@@ -110,6 +83,51 @@ Verdict verdict_beside(const ValidationFindings& f, const ValidationExperiment& 
     return judge(e, f.values(e, x.compare));
 }
 
+/// Judged rows by verdict.
+struct Tally {
+    std::array<int, 8> rows{};
+    int beside_too = 0; ///< shown, and by the run beside, too
+
+    int operator[](Verdict::Name name) const { return rows[static_cast<std::size_t>(name)]; }
+    int decided() const { return (*this)[shown] + (*this)[open] + (*this)[not_shown]; }
+
+    /// "7 of 7": rows that hold in every seed; empty where there is none.
+    std::string held() const {
+        const int all = (*this)[met] + (*this)[missed];
+        return all > 0 ? fmt::format("{} of {}", (*this)[met], all) : "";
+    }
+
+    void add(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
+        for (const Expectation& e : x.expectations)
+            if (e.kind == kind && e.is_judged()) {
+                const Verdict::Name name = f.verdict(e).name;
+                ++rows[static_cast<std::size_t>(name)];
+                beside_too += name == shown && verdict_beside(f, x, e).name == shown;
+            }
+    }
+};
+
+Tally tally(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
+    Tally count;
+    count.add(f, x, kind);
+    return count;
+}
+
+/// Experiments whose faults the document is about: several seeds, and not beside one that they are
+/// like.
+std::vector<ValidationExperiment> main_experiments(const ValidationFindings& f) {
+    std::vector<ValidationExperiment> all;
+    std::ranges::copy_if(f.experiments, std::back_inserter(all), [&](const auto& x) {
+        return std::ranges::find(f.experiments, x.like, &ValidationExperiment::name) ==
+                   f.experiments.end() &&
+               f.plan.run(x.runs.front()).seeds != 1 &&
+               std::ranges::any_of(x.expectations, [](const Expectation& e) {
+                   return e.kind == Kind::faults && e.is_judged();
+               });
+    });
+    return all;
+}
+
 /// Short name of an experiment: "LIS1" of "LIS1: listric detachment", or the one in the plan.
 std::string short_name(const ValidationExperiment& x) {
     return x.like.empty() ? x.title.substr(0, x.title.find(':')) : x.name;
@@ -117,14 +135,13 @@ std::string short_name(const ValidationExperiment& x) {
 
 /// Origin of the record: who made the runs and who measured them, and a warning of mixtures.
 std::string origins(const ValidationFindings& f) {
-    std::set<std::string> runs, made, measured, definitions;
+    std::set<std::string> made, measured, definitions;
     const auto known = [](const std::string& text, const char* unknown) {
         return text.empty() ? unknown : text;
     };
-    for (const ValidationExperiment& x : f.experiments)
-        runs.insert(x.runs.begin(), x.runs.end());
+    const std::set<std::string> runs = runs_of(f);
     for (const auto& [place, m] : f.store)
-        if (runs.contains(place.run) && std::ranges::find(f.seeds, place.seed) != f.seeds.end()) {
+        if (runs.contains(place.run) && std::ranges::count(f.seeds, place.seed) > 0) {
             made.insert(known(m.from.made_by, "a version that is not recorded"));
             measured.insert(known(m.from.measured_by, "one that is not recorded"));
             definitions.insert(known(m.from.measures_hash, "not recorded"));
@@ -150,14 +167,6 @@ std::string origins(const ValidationFindings& f) {
     return text + "\n\n";
 }
 
-/// Criteria of faulting that an experiment shows, and the run beside it, too.
-int shown_beside_too(const ValidationFindings& f, const ValidationExperiment& x) {
-    return static_cast<int>(std::ranges::count_if(x.expectations, [&](const Expectation& e) {
-        return f.verdict(e).name == VerdictName::shown &&
-               verdict_beside(f, x, e).name == VerdictName::shown;
-    }));
-}
-
 /// "width of faults, diameters, 10 km"
 std::string what_and_when(const ValidationFindings& f, const Expectation& e) {
     const std::vector<double>& at = f.plan.run(e.run).at;
@@ -167,63 +176,47 @@ std::string what_and_when(const ValidationFindings& f, const Expectation& e) {
 
 /// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens, 10 km (20 of 20 seeds)."
 std::string sentence(const ValidationFindings& f, const ValidationExperiment& x) {
-    const std::array<int, 8> count = tally(f, x, Kind::faults);
+    const Tally count = tally(f, x, Kind::faults);
+    if (count.decided() == 0)
+        return fmt::format("{}: no criterion is measured.", short_name(x));
     std::vector<std::string> missing;
     for (const Expectation& e : x.expectations)
-        if (e.kind == Kind::faults && e.is_judged() && f.verdict(e).name == VerdictName::not_shown)
+        if (e.kind == Kind::faults && e.is_judged() && f.verdict(e).name == not_shown)
             missing.push_back(what_and_when(f, e));
-    const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
-                    rows_with(count, VerdictName::not_shown);
-    if (all == 0)
-        return fmt::format("{}: no criterion is measured.", short_name(x));
     std::string text =
-        fmt::format("{}: {} of {} criteria shown, {} open, {} not shown", short_name(x),
-                    rows_with(count, VerdictName::shown), all, rows_with(count, VerdictName::open),
-                    rows_with(count, VerdictName::not_shown));
-    if (!missing.empty())
-        text += fmt::format(": {}", fmt::join(missing, "; "));
-    if (const int none = rows_with(count, VerdictName::no_case); none > 0)
-        text += fmt::format("; {} without a case", none);
-    if (const int none = rows_with(count, VerdictName::no_run); none > 0)
-        text += fmt::format("; {} not measured", none);
-    if (const int both = shown_beside_too(f, x); both > 0)
-        text += fmt::format("; {} of those shown `{}` shows, too", both, x.compare);
+        fmt::format("{}: {} of {} criteria shown, {} open, {} not shown{}{}", short_name(x),
+                    count[shown], count.decided(), count[open], count[not_shown],
+                    missing.empty() ? "" : ": ", fmt::join(missing, "; "));
+    if (count[no_case] > 0)
+        text += fmt::format("; {} without a case", count[no_case]);
+    if (count[no_run] > 0)
+        text += fmt::format("; {} not measured", count[no_run]);
+    if (count.beside_too > 0)
+        text += fmt::format("; {} of those shown `{}` shows, too", count.beside_too, x.compare);
     return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
 }
 
 /// The findings in as many sentences as there are experiments, and two.
 std::string sentences(const ValidationFindings& f) {
-    std::vector<std::string> all;
-    int shown = 0, open = 0, not_shown = 0, beside_too = 0;
-    int met = 0, missed = 0;
-    for (const ValidationExperiment& x : f.experiments) {
-        if (!is_main(f, x))
-            continue;
-        all.push_back(sentence(f, x));
-        const std::array<int, 8> count = tally(f, x, Kind::faults);
-        shown += rows_with(count, VerdictName::shown);
-        open += rows_with(count, VerdictName::open);
-        not_shown += rows_with(count, VerdictName::not_shown);
-        beside_too += shown_beside_too(f, x);
-        for (const Kind kind : {Kind::kinematics, Kind::conservation}) {
-            met += rows_with(tally(f, x, kind), VerdictName::met);
-            missed += rows_with(tally(f, x, kind), VerdictName::missed);
-        }
-    }
-    if (all.empty())
+    const std::vector<ValidationExperiment> experiments = main_experiments(f);
+    if (experiments.empty())
         return "";
-    all.insert(all.begin(),
-               fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown. The "
-                           "runs beside them show {} of the {}, too.",
-                           shown, shown + open + not_shown, open, not_shown, beside_too, shown));
-    all.push_back(fmt::format("Kinematics and conservation hold in every seed in {} of {} rows; a "
-                              "hanging wall that slides on these detachments has the geometry with "
-                              "any material, so these rows test the machinery and no faults.",
-                              met, met + missed));
-    std::string text = "## In short\n\n";
-    for (std::size_t k = 0; k < all.size(); ++k)
-        text += fmt::format("{}. {}\n", k + 1, all[k]);
-    return text + "\n";
+    Tally faults, machinery;
+    std::string each;
+    int number = 1;
+    for (const ValidationExperiment& x : experiments) {
+        faults.add(f, x, Kind::faults);
+        machinery.add(f, x, Kind::kinematics);
+        machinery.add(f, x, Kind::conservation);
+        each += fmt::format("{}. {}\n", ++number, sentence(f, x));
+    }
+    return fmt::format(
+        "## In short\n\n1. Criteria of faulting: {} of {} shown, {} open, {} not shown. The runs "
+        "beside them show {} of the {}, too.\n{}{}. Kinematics and conservation hold in every seed "
+        "in {} of {} rows; a hanging wall that slides on these detachments has the geometry with "
+        "any material, so these rows test the machinery and no faults.\n\n",
+        faults[shown], faults.decided(), faults[open], faults[not_shown], faults.beside_too,
+        faults[shown], each, number + 1, machinery[met], machinery[met] + machinery[missed]);
 }
 
 constexpr std::string_view how_to_read =
@@ -244,47 +237,50 @@ constexpr std::string_view how_to_read =
     "what a control without AFD and ICM meets, too, does not need them |\n\n"
     "A value is the mean over the seeds ± its standard deviation (smallest to largest).\n\n";
 
-/// The runs that failed in this call, with their reasons; they count nowhere.
-std::string failures(const ValidationFindings& f) {
-    if (f.failed.empty())
-        return "";
-    std::string text = "**Runs that failed**, and do not count:\n\n";
-    for (const auto& [run, reason] : f.failed)
-        text += fmt::format("- {}: {}\n", run, reason);
-    return text + "\n";
-}
-
-/// Introduction of the document.
+/// Introduction of the document. The runs that failed in this call count nowhere.
 std::string introduction(const ValidationFindings& f) {
-    std::set<std::string> names; // experiments may share runs
-    for (const ValidationExperiment& x : f.experiments)
-        names.insert(x.runs.begin(), x.runs.end());
     std::size_t there = 0, wanted = 0;
-    for (const std::string& name : names) {
-        const auto [have, lack] = recorded_seeds(f, f.plan.run(name));
+    for (const std::string& name : runs_of(f)) {
+        const auto [have, lack] = recorded_seeds(f, name);
         there += have.size();
         wanted += have.size() + lack.size();
     }
+    std::string failures = f.failed.empty() ? "" : "**Runs that failed**, and do not count:\n\n";
+    for (const auto& [run, reason] : f.failed)
+        failures += fmt::format("- {}: {}\n", run, reason);
     return fmt::format("Made by `listric validate` from the record of {} of {} runs at accuracy "
                        "{}, seeds {}; do not edit. Criteria and their words are in `{}`; "
                        "`docs/reference/measures.md` defines the measures; "
-                       "[measures.csv]({}/measures.csv) has every number.\n\n",
+                       "[measures.csv]({}/measures.csv) has every number.\n\n{}{}{}",
                        there, wanted, f.accuracy, seeds_text(f.seeds), f.plan_name,
-                       f.beside.filename().string()) +
-           origins(f) + failures(f);
+                       f.beside.filename().string(), origins(f), failures,
+                       failures.empty() ? "" : "\n");
+}
+
+/// A row of a table.
+std::string row(const std::vector<std::string>& cells) {
+    return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+/// A table's first row and the rule below it.
+std::string head(const std::vector<std::string>& names) {
+    std::string rule = "|";
+    for (std::size_t k = 0; k < names.size(); ++k)
+        rule += "---|";
+    return row(names) + rule + '\n';
 }
 
 /// Number of criteria by verdict and experiment.
 std::string overview(const ValidationFindings& f) {
-    std::string text = "| experiment | seeds | faults: shown | open | not shown | no case | "
-                       "kinematics | conservation |\n|---|---|---|---|---|---|---|---|\n";
+    std::string text = head({"experiment", "seeds", "faults: shown", "open", "not shown", "no case",
+                             "kinematics", "conservation"});
     for (const ValidationExperiment& x : f.experiments) {
-        const std::array<int, 8> count = tally(f, x, Kind::faults);
-        text += fmt::format(
-            "| {} | {} | {} | {} | {} | {} | {} | {} |\n", x.title, seeds_so_far(f, x),
-            rows_with(count, VerdictName::shown), rows_with(count, VerdictName::open),
-            rows_with(count, VerdictName::not_shown), rows_with(count, VerdictName::no_case),
-            held(f, x, Kind::kinematics), held(f, x, Kind::conservation));
+        std::vector<std::string> cells{x.title, seeds_so_far(f, x)};
+        for (const Verdict::Name name : {shown, open, not_shown, no_case})
+            cells.push_back(std::to_string(tally(f, x, Kind::faults)[name]));
+        for (const Kind kind : {Kind::kinematics, Kind::conservation})
+            cells.push_back(tally(f, x, kind).held());
+        text += row(cells);
     }
     return text + "\n";
 }
@@ -292,9 +288,8 @@ std::string overview(const ValidationFindings& f) {
 /// Measure and place of an expectation: "width of faults, diameters, 10 km
 /// (`fault_width_diameters`)".
 std::string subject(const ValidationFindings& f, const Expectation& e) {
-    const std::string what = what_and_when(f, e);
-    return e.over.empty() ? fmt::format("{} (`{}`)", what, e.measure)
-                          : fmt::format("{} (`{}` over `{}`)", what, e.measure, e.over);
+    return fmt::format("{} (`{}{}{}`)", what_and_when(f, e), e.measure,
+                       e.over.empty() ? "" : "` over `", e.over);
 }
 
 /// "“planar synthetic fault” (Fig. 7a)"
@@ -305,42 +300,38 @@ std::string origin_of(const Expectation& e) {
                             : fmt::format("“{}” ({})", e.words, e.source);
 }
 
-/// An experiment's row for what another expects; none: it has no such row.
-const Expectation* same_row(const ValidationExperiment& x, const Expectation& row) {
-    const auto found = std::ranges::find_if(x.expectations, [&](const Expectation& e) {
-        return e.measure == row.measure && e.over == row.over && e.what == row.what &&
-               e.at == row.at;
+/// An experiment's verdict on what another expects, and its numbers of seeds.
+std::string verdict_on(const ValidationFindings& f, const ValidationExperiment& x,
+                       const Expectation& row) {
+    const auto e = std::ranges::find_if(x.expectations, [&](const Expectation& own) {
+        return own.measure == row.measure && own.over == row.over && own.what == row.what &&
+               own.at == row.at;
     });
-    return found == x.expectations.end() ? nullptr : &*found;
+    const Verdict v = e == x.expectations.end() ? Verdict{} : f.verdict(*e);
+    return v.of > 0        ? fmt::format("{} ({} of {})", name_of(v.name), v.met, v.of)
+           : v.no_case > 0 ? "no case"
+                           : "";
 }
 
-/// An experiment and those that are like it beside each other: verdicts, and numbers of seeds.
+/// An experiment and those that are like it beside each other.
 std::string comparison(const ValidationFindings& f, const std::string& like) {
     std::vector<const ValidationExperiment*> columns;
+    std::vector<std::string> names{"kind", "measure", "expected"};
     for (const ValidationExperiment& x : f.experiments)
-        if (x.name == like || x.like == like)
+        if (x.name == like || x.like == like) {
             columns.push_back(&x);
-    std::string text = fmt::format("Criteria of {} by experiment: verdict, and seeds that meet "
-                                   "them.\n\n| kind | measure | expected |",
-                                   like);
-    std::string rule = "|---|---|---|";
-    for (const ValidationExperiment* x : columns) {
-        text += fmt::format(" {} |", x->name);
-        rule += "---|";
-    }
-    text += '\n' + rule + '\n';
-    for (const Expectation& row : columns.front()->expectations) {
-        if (!row.is_judged())
-            continue;
-        text += fmt::format("| {} | {} | {} |", name_of(row.kind), subject(f, row), row.target());
-        for (const ValidationExperiment* x : columns) {
-            const Expectation* const e = same_row(*x, row);
-            const Verdict v = e ? f.verdict(*e) : Verdict{};
-            text += v.of > 0        ? fmt::format(" {} ({} of {}) |", name_of(v.name), v.met, v.of)
-                    : v.no_case > 0 ? " no case |"
-                                    : " |";
+            names.push_back(x.name);
         }
-        text += '\n';
+    std::string text =
+        fmt::format("Criteria of {} by experiment: verdict, and seeds that meet them.\n\n{}", like,
+                    head(names));
+    for (const Expectation& e : columns.front()->expectations) {
+        if (!e.is_judged())
+            continue;
+        std::vector<std::string> cells{std::string(name_of(e.kind)), subject(f, e), e.target()};
+        for (const ValidationExperiment* x : columns)
+            cells.push_back(verdict_on(f, *x, e));
+        text += row(cells);
     }
     return text + '\n';
 }
@@ -361,61 +352,58 @@ std::string comparisons(const ValidationFindings& f) {
 std::string text_beside(const ValidationFindings& f, const ValidationExperiment& x,
                         const Expectation& e) {
     const Verdict v = verdict_beside(f, x, e);
-    if (v.name == VerdictName::no_run)
+    if (v.name == no_run)
         return "";
     const std::string values = summary(e, f.values(e, x.compare));
     return v.of > 0 && e.is_judged() ? fmt::format("{}: {} of {}", values, v.met, v.of) : values;
 }
 
 std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
-    const bool beside = !x.compare.empty();
-    std::string text = "| kind | measure | expected | by | this program |";
-    text += beside ? fmt::format(" {} | verdict |\n|---|---|---|---|---|---|---|\n", x.compare)
-                   : " verdict |\n|---|---|---|---|---|---|\n";
-    for (const Expectation& e : x.expectations) {
-        text += fmt::format("| {} | {} | {} | {} | {} |", name_of(e.kind), subject(f, e),
-                            e.target(), origin_of(e), summary(e, f.values(e, e.run)));
-        if (beside)
-            text += fmt::format(" {} |", text_beside(f, x, e));
-        text += fmt::format(" {} |\n", f.verdict(e).text);
-    }
+    const auto with_beside = [&](std::vector<std::string> cells, const std::string& beside,
+                                 const std::string& verdict) {
+        if (!x.compare.empty())
+            cells.push_back(beside);
+        cells.push_back(verdict);
+        return cells;
+    };
+    std::string text = head(
+        with_beside({"kind", "measure", "expected", "by", "this program"}, x.compare, "verdict"));
+    for (const Expectation& e : x.expectations)
+        text += row(with_beside({std::string(name_of(e.kind)), subject(f, e), e.target(),
+                                 origin_of(e), summary(e, f.values(e, e.run))},
+                                text_beside(f, x, e), f.verdict(e).text));
     return text + '\n';
 }
 
 /// Rows without verdict that have a reason, and rows that are no more.
 std::string without_verdict(const ValidationFindings& f, const ValidationExperiment& x) {
-    std::string text;
+    std::string rows;
     for (const Expectation& e : x.expectations)
         if (!e.reason.empty() && x.like.empty())
-            text += fmt::format("| {} | reported | {} |\n", subject(f, e), e.reason);
-    for (const DroppedRow& row : x.dropped)
-        text += fmt::format("| {}{}{} | dropped | {} |\n", row.what, row.asked.empty() ? "" : ": ",
-                            row.asked, row.reason);
-    return text.empty()
-               ? ""
-               : "Rows without verdict, and rows that were dropped:\n\n| row | now | reason "
-                 "|\n|---|---|---|\n" +
-                     text + '\n';
+            rows += row({subject(f, e), "reported", e.reason});
+    for (const DroppedRow& d : x.dropped)
+        rows += row({d.what + (d.asked.empty() ? "" : ": ") + d.asked, "dropped", d.reason});
+    return rows.empty() ? ""
+                        : "Rows without verdict, and rows that were dropped:\n\n" +
+                              head({"row", "now", "reason"}) + rows + '\n';
 }
 
 /// An experiment's section.
 std::string section(const ValidationFindings& f, const ValidationExperiment& x) {
-    std::string text = fmt::format("## {}\n\n", x.title);
-    if (!x.about.empty())
-        text += x.about + "\n\n";
+    std::string text =
+        fmt::format("## {}\n\n{}{}", x.title, x.about, x.about.empty() ? "" : "\n\n");
     text += table(f, x) + without_verdict(f, x);
     for (const ValidationPicture& picture : x.pictures)
-        if (const fs::path file = f.beside / (picture.name + ".png"); fs::exists(file))
-            text +=
-                fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name, f.beside.filename().string(),
-                            file.filename().string(), picture.caption);
+        if (fs::exists(f.beside / (picture.name + ".png")))
+            text += fmt::format("![{}]({}/{}.png)\n\n*{}*\n\n", picture.name,
+                                f.beside.filename().string(), picture.name, picture.caption);
     if (!x.seen.empty() && f.accuracy == "standard" &&
-        std::ranges::all_of(
-            x.seen_of, [&](int seed) { return std::ranges::find(f.seeds, seed) != f.seeds.end(); }))
+        std::ranges::all_of(x.seen_of,
+                            [&](int seed) { return std::ranges::count(f.seeds, seed) > 0; }))
         text += x.seen + "\n\n";
     std::vector<std::string> missing;
     for (const std::string& name : x.runs)
-        if (const auto seeds = recorded_seeds(f, f.plan.run(name)).second; !seeds.empty())
+        if (const auto seeds = recorded_seeds(f, name).second; !seeds.empty())
             missing.push_back(fmt::format("{} {}", name, seeds_text(seeds)));
     if (!missing.empty())
         text += fmt::format("Runs that are not recorded: {}.\n\n", fmt::join(missing, "; "));
@@ -426,28 +414,26 @@ std::string section(const ValidationFindings& f, const ValidationExperiment& x) 
 /// no meaning.
 std::optional<std::optional<double>> value_of(const ValidationFindings& f, const Expectation& e,
                                               const std::string& of, int seed) {
-    const ValidationRun& run = f.plan.run(of);
-    const double at = e.at.value_or(run.at.back());
-    if (!f.store.contains({of, seed, at}) || (e.since && !f.store.contains({of, seed, *e.since})) ||
-        (!e.minus.empty() && !f.store.contains({e.minus, seed, at})))
-        return std::nullopt;
-    const auto number = [&](const std::string& name, double where) -> std::optional<double> {
-        const MeasuredPlace place{name, seed, where};
-        const auto measure = number_at(f.store, place, e.measure);
-        if (e.over.empty())
-            return measure;
-        const auto over = number_at(f.store, place, e.over);
-        return measure && over && *over != 0.0 ? std::optional(*measure / *over) : std::nullopt;
-    };
-    std::optional<double> value = number(of, at);
-    const auto take_off = [&](std::optional<double> other) {
-        value = value && other ? std::optional(*value - *other) : std::nullopt;
-    };
+    const double at = e.at.value_or(f.plan.run(of).at.back());
+    std::vector<MeasuredPlace> places{{of, seed, at}}; // from the first the others are taken off
     if (!e.minus.empty())
-        take_off(number(e.minus, at));
+        places.push_back({e.minus, seed, at});
     if (e.since)
-        take_off(number(of, *e.since));
-    return value ? std::optional(*value / e.unit) : std::nullopt;
+        places.push_back({of, seed, *e.since});
+    if (!std::ranges::all_of(places, [&](const auto& place) { return f.store.contains(place); }))
+        return std::nullopt;
+    std::optional<double> value;
+    for (const MeasuredPlace& place : places) {
+        auto number = number_at(f.store, place, e.measure);
+        if (number && !e.over.empty()) {
+            const double over = number_at(f.store, place, e.over).value_or(0.0);
+            number = over != 0.0 ? std::optional(*number / over) : std::nullopt;
+        }
+        if (!number)
+            return std::optional<double>();
+        value = value ? *value - *number : *number;
+    }
+    return std::optional(*value / e.unit);
 }
 
 /// A row of the chart; `beside` counts the seeds of the run beside it that meet the row.
@@ -494,12 +480,11 @@ bool ValidationFindings::is_measured(const Expectation& e) const {
 
 Verdict ValidationFindings::verdict(const Expectation& e) const {
     const auto all = values(e, e.run);
-    if (!all.empty() && !is_measured(e)) {
-        Verdict v;
-        v.text = "not measured";
-        return v;
-    }
-    return judge(e, all);
+    if (all.empty() || is_measured(e))
+        return judge(e, all);
+    Verdict v;
+    v.text = "not measured";
+    return v;
 }
 
 std::vector<std::optional<double>> ValidationFindings::values(const Expectation& e,
@@ -533,17 +518,15 @@ std::string validation_document(const ValidationFindings& f) {
 
 std::string validation_chart(const ValidationFindings& f) {
     nlohmann::ordered_json experiments = nlohmann::ordered_json::array();
-    for (const ValidationExperiment& x : f.experiments) {
-        if (!is_main(f, x))
-            continue;
+    for (const ValidationExperiment& x : main_experiments(f)) {
         nlohmann::ordered_json rows = nlohmann::ordered_json::array();
         for (const Expectation& e : x.expectations)
             if (e.kind == Kind::faults && e.is_judged())
                 rows.push_back(chart_row(f, x, e));
         experiments.push_back({{"title", short_name(x)},
                                {"seeds", seeds_so_far(f, x)},
-                               {"kinematics", held(f, x, Kind::kinematics)},
-                               {"conservation", held(f, x, Kind::conservation)},
+                               {"kinematics", tally(f, x, Kind::kinematics).held()},
+                               {"conservation", tally(f, x, Kind::conservation).held()},
                                {"beside", x.compare},
                                {"rows", rows}});
     }

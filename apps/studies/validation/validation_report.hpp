@@ -14,9 +14,9 @@ namespace listric {
 /// Findings of a validation: the content of its document.
 struct ValidationFindings {
     const ValidationPlan& plan;
-    std::string plan_name;                         ///< its file, for people
-    std::vector<ValidationExperiment> experiments; ///< that are recorded, by their first run
-    std::vector<std::string> missing;              ///< names of those that are not
+    std::string plan_name;                              ///< its file, for people
+    std::vector<ValidationExperiment> experiments = {}; ///< that are recorded, by their first run
+    std::vector<std::string> missing = {};              ///< names of those that are not
     const MeasureStore& store;
     std::string accuracy;
     std::vector<int> seeds;       ///< that the document is about

@@ -46,26 +46,13 @@ TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
     // Seeds 1 to 3: 21.5, 17.2, 20.8 m, their mean is recorded. Another machine's linear algebra
     // rounds otherwise, and the discs take another path: as far apart as another seed's.
     EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 19.8, 2.7);
+    // Seeds 1 to 3: 0.046, 0.062, 0.096.
+    EXPECT_LT(one["base_resolved_difference"].get<double>(), 0.12);
     // Ended within the first window, which then goes on.
     const json begun = run("two", 2, 40.0);
     EXPECT_GT(begun["base_deflection_max_m"].get<double>(), 0.1);
     const json two = run("two", 1, {}, true);
     EXPECT_EQ(one["state_hash"], two["state_hash"]);
-}
-
-TEST_F(CoupledRun, LumpedMassesComeToTheSame) {
-    // Lumped masses slow the soft modes, too: with an update every 5 cycles the base is half behind
-    // its load, with one every cycle it follows. Uplift differs by the path that discs take.
-    const json modal = run("modal", 1);
-    const json lumped =
-        run("lumped", 1, {}, false,
-            {"elastic_base.scheme=lumped", "elastic_base.update_interval_cycles=1"});
-    const double uplift = modal["footwall_uplift_m"];
-    EXPECT_NEAR(lumped["footwall_uplift_m"].get<double>(), uplift, 0.15 * uplift);
-    // Seeds 1 to 3: 0.046, 0.062, 0.096 and 0.089, 0.071, 0.065; lumped, every 5 cycles: 0.36,
-    // 0.51, 0.42.
-    EXPECT_LT(modal["base_resolved_difference"].get<double>(), 0.12);
-    EXPECT_LT(lumped["base_resolved_difference"].get<double>(), 0.12);
 }
 
 TEST_F(CoupledRun, NearlyIncompressibleRockCarriesDiscs) {

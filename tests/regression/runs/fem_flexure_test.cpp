@@ -1,6 +1,6 @@
 // The plan of flexure from the call to the files: names and numbers.
 
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/support/files/file.hpp"
 #include "fem/elastic_layer.hpp"
 #include "tests/xml_files.hpp"

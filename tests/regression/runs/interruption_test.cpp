@@ -1,7 +1,6 @@
 // Ctrl-C, and memory that does not suffice: every call that lasts ends in order, with its exit
 // code.
 
-#include "apps/laboratory/calibration/calibration.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/support/error.hpp"
 #include "tests/program.hpp"

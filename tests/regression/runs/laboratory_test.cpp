@@ -1,4 +1,3 @@
-#include "apps/laboratory/calibration/calibration.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/laboratory/pure_shear.hpp"
 #include "apps/laboratory/tests.hpp"

@@ -2,6 +2,9 @@
 
 #include "apps/run/run.hpp"
 #include "apps/studies/study.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/files/csv_records.hpp"
+#include "tests/small_halfgraben.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +12,7 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <string>
 #include <unistd.h>
 
 namespace listric::study_test {
@@ -20,26 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A folder that lives as long as its test.
-class Folder {
-public:
-    Folder() {
-        std::string pattern = (fs::temp_directory_path() / "listric-study-XXXXXX").string();
-        path = mkdtemp(pattern.data());
-    }
-    ~Folder() { fs::remove_all(path); }
-    fs::path path;
-};
+class StudyTest : public testing::Test {
+protected:
+    ~StudyTest() override { fs::remove_all(folder); }
 
-StudyRequest small(const std::string& name, const Folder& folder) {
-    const fs::path scene = folder.path / "small.toml";
-    std::ofstream(scene) << R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 90.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+    StudyRequest small(const std::string& name) const {
+        const fs::path scene = folder / "small.toml";
+        fs::create_directories(folder);
+        std::ofstream(scene) << support::small_halfgraben("90.0") + R"([extension]
 distance_m = 100.0
 speed_m_per_s = 4.0
 ramp_s = 2.0
@@ -49,36 +40,29 @@ series = "none"
 [gravity]
 [bonds]
 )";
-    StudyRequest request;
-    request.name = name;
-    request.scene = scene.string();
-    request.seeds = 2;
-    request.quiet = true;
-    request.output = folder.path / "study";
-    return request;
-}
+        StudyRequest request;
+        request.name = name;
+        request.scene = scene.string();
+        request.seeds = 2;
+        request.quiet = true;
+        request.output = folder / "study";
+        return request;
+    }
+
+    const fs::path folder =
+        fs::path(testing::TempDir()) / ("listric-study-" + std::to_string(getpid()));
+};
 
 std::vector<StudyPoint> points(const fs::path& output) {
-    std::ifstream in(output / "study.csv");
-    std::string line;
-    std::getline(in, line);
-    EXPECT_EQ(line, "method,parameter,quantity,error,wall_s,disc_steps");
     std::vector<StudyPoint> all;
-    while (std::getline(in, line)) {
-        std::istringstream cells(line);
-        StudyPoint p;
-        std::string error, wall, steps;
-        std::getline(cells, p.method, ',');
-        std::getline(cells, p.parameter, ',');
-        std::getline(cells, p.quantity, ',');
-        std::getline(cells, error, ',');
-        std::getline(cells, wall, ',');
-        std::getline(cells, steps, ',');
-        p.error = std::stod(error);
-        p.wall = std::stod(wall);
-        p.disc_steps = std::stod(steps);
-        all.push_back(p);
-    }
+    const std::string text = support::contents(output / "study.csv");
+    EXPECT_THAT(text, testing::StartsWith("method,parameter,quantity,error,wall_s,disc_steps\n"));
+    read_records(text, "study.csv", ',', [&](const CsvRecord& r) {
+        if (r.line > 1)
+            all.push_back({r.cells[0], r.cells[1], r.cells[2], std::stod(r.cells[3]),
+                           std::stod(r.cells[4]), std::stod(r.cells[5])});
+        return true;
+    });
     return all;
 }
 
@@ -91,9 +75,8 @@ double error_of(const std::vector<StudyPoint>& all, const std::string& method,
     return 0.0;
 }
 
-TEST(Study, OfRunsMeasuresAgainstTheFinest) {
-    const Folder folder;
-    StudyRequest request = small("resolution", folder);
+TEST_F(StudyTest, OfRunsMeasuresAgainstTheFinest) {
+    StudyRequest request = small("resolution");
     request.values = {90.0, 115.0};
     run_study(request);
     const auto all = points(request.output);
@@ -116,9 +99,8 @@ TEST(Study, OfRunsMeasuresAgainstTheFinest) {
     EXPECT_EQ(fs::last_write_time(run), made);
 }
 
-TEST(Study, OfTheTimeStepShowsOrderAndLimit) {
-    const Folder folder;
-    StudyRequest request = small("time-step", folder);
+TEST_F(StudyTest, OfTheTimeStepShowsOrderAndLimit) {
+    StudyRequest request = small("time-step");
     request.seeds = 1;
     request.set = {"extension.distance_m=5.0", "hanging_wall.mean_radius_m=115.0"};
     run_study(request);
@@ -132,32 +114,30 @@ TEST(Study, OfTheTimeStepShowsOrderAndLimit) {
     EXPECT_GT(error_of(all, scaling, "mass=256"), 2.0 * error_of(all, scaling, "mass=1"));
 }
 
-TEST(Study, RefusesWhatItDoesNotKnow) {
-    const Folder folder;
-    StudyRequest request = small("resolutoin", folder);
+TEST_F(StudyTest, RefusesWhatItDoesNotKnow) {
+    StudyRequest request = small("resolutoin");
     try {
         run_study(request);
         FAIL();
     } catch (const UsageError& error) {
         EXPECT_THAT(error.what(), HasSubstr("did you mean resolution?"));
     }
-    request = small("speed", folder);
+    request = small("speed");
     request.values = {-1.0};
     EXPECT_THROW(run_study(request), UsageError);
-    request = small("speed", folder);
+    request = small("speed");
     request.seeds = 0;
     EXPECT_THROW(run_study(request), UsageError);
     for (const char* fixed : {"coupling", "time-step", "precision"}) {
-        request = small(fixed, folder);
+        request = small(fixed);
         request.values = {2.0};
         EXPECT_THROW(run_study(request), UsageError) << fixed;
     }
-    EXPECT_THROW(run_study(small("footwall", folder)), UsageError); // it has no scene
+    EXPECT_THROW(run_study(small("footwall")), UsageError); // it has no scene
 }
 
-TEST(Study, OfASceneWithoutACutoffLeavesItOut) {
-    const Folder folder;
-    StudyRequest request = small("speed", folder);
+TEST_F(StudyTest, OfASceneWithoutACutoffLeavesItOut) {
+    StudyRequest request = small("speed");
     request.scene = "pure-shear";
     request.values = {8.0, 4.0};
     request.seeds = 1;

@@ -5,6 +5,7 @@
 #include "apps/archive/folder/scene_lines.hpp"
 #include "tests/message_of.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -167,6 +168,12 @@ TEST(LineDifference, AParameterThatAnEarlierProgramDidNotHaveHasItsDefault) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->one, "0.0");
     EXPECT_TRUE(scene_difference(scene_values(""), scene_values("[sedimentation]\n")));
+    const auto with_scheme = [](const char* name) {
+        return scene_values(fmt::format("[elastic_base]\nscheme = \"{}\"\n", name));
+    };
+    const auto now = scene_values("[elastic_base]\n");
+    EXPECT_FALSE(scene_difference(with_scheme("modal"), now));
+    EXPECT_EQ(scene_difference(with_scheme("lumped"), now)->other, "\"modal\"");
 }
 
 } // namespace

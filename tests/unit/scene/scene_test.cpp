@@ -384,6 +384,17 @@ TEST_F(SceneTest, AFormerKeyIsAnsweredWithItsSuccessor) {
               "any more, use least_slip_m, the slip of a fault itself");
 }
 
+TEST_F(SceneTest, AFormerKeyIsPassedOverWhereItSaysWhatIsDone) {
+    const auto written = [](const std::vector<std::string>& set) {
+        return to_toml(load_scene({.scene = "lis1-elastic", .set = set}));
+    };
+    EXPECT_EQ(written({"elastic_base.scheme=modal"}), written({}));
+    EXPECT_EQ(error(minimal + "[gravity]\n[elastic_base]\nscheme = 'lumped'\n"),
+              "scene.toml:6: elastic_base.scheme: is no key any more, and \"lumped\" is gone, "
+              "allowed: \"modal\", which is done without it; leave it out");
+    EXPECT_THAT(set_error("elastic_base.scheme=1"), HasSubstr("allowed: \"modal\""));
+}
+
 TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
     EXPECT_EQ(error(minimal + "[cycle]\ncolour = 'red'\n"),
               "scene.toml:5: cycle.colour: unknown key, allowed: damping, averaging_time_s, "

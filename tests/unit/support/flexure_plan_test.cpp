@@ -1,6 +1,6 @@
 // Plans of flexure: what they may have, and that they read back the same.
 
-#include "apps/studies/flexure.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 
@@ -50,6 +50,12 @@ TEST_F(FlexurePlans, OneIsShippedAndFoundByItsName) {
     EXPECT_EQ(plan.name, "flexure");
     EXPECT_EQ(plan.bending().elastic_thickness, 10e3);
     EXPECT_EQ(plan.gravity, 9.81);
+}
+
+TEST_F(FlexurePlans, AFormerKeyIsPassedOverAsInScenes) {
+    const std::string plan = "[flexure]\n[elastic_base]\nscheme = ";
+    EXPECT_EQ(to_toml(load(plan + "'modal'\n")), to_toml(load("[flexure]\n")));
+    EXPECT_EQ(error(plan + "'lumped'\n").find("plan.toml:3: elastic_base.scheme: "), 0u);
 }
 
 TEST_F(FlexurePlans, ReadBackTheSame) {
