@@ -5,6 +5,8 @@
 #include "apps/support/machine/resources.hpp"
 #include "dem/hypotenuse.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

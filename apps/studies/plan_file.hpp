@@ -2,7 +2,7 @@
 
 #include "apps/scene/toml/toml.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>

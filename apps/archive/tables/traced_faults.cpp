@@ -1,7 +1,7 @@
 #include "apps/archive/tables/traced_faults.hpp"
 
 #include "apps/archive/tables/fault_fields.hpp"
-#include "apps/support/files/json_text.hpp"
+#include "apps/scene/toml/json_text.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,11 +1,12 @@
 #include "apps/studies/sweep/sweep_effects.hpp"
 
 #include "apps/studies/sweep/student.hpp"
-
-#include <Eigen/Dense>
+#include "apps/support/least_squares.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -13,37 +14,26 @@ namespace listric {
 
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 /// Columns of a linear model, a row a run.
-struct Columns {
-    std::vector<VectorXd> columns = {};
+using Columns = std::vector<std::vector<double>>;
 
-    MatrixXd matrix() const {
-        MatrixXd m(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            m.col(static_cast<Eigen::Index>(k)) = columns[k];
-        return m;
+/// Adds one for every value but the first, of which the others tell the difference.
+template <class Value> void add_indicators(Columns& columns, const std::vector<Value>& of) {
+    std::set<Value> all(of.begin(), of.end());
+    if (!all.empty())
+        all.erase(all.begin());
+    for (const Value& value : all) {
+        std::vector<double> column;
+        for (const Value& one : of)
+            column.push_back(one == value ? 1.0 : 0.0);
+        columns.push_back(std::move(column));
     }
-    /// One for every value but the first, of which the others tell the difference.
-    template <class Value> void add_indicators(const std::vector<Value>& of) {
-        std::set<Value> all(of.begin(), of.end());
-        if (!all.empty())
-            all.erase(all.begin());
-        for (const Value& value : all) {
-            VectorXd column(static_cast<Eigen::Index>(of.size()));
-            for (std::size_t k = 0; k < of.size(); ++k)
-                column(static_cast<Eigen::Index>(k)) = of[k] == value ? 1.0 : 0.0;
-            columns.push_back(std::move(column));
-        }
-    }
-};
+}
 
 /// A parameter, or two together.
 struct Term {
     std::string name;
-    VectorXd column;
+    std::vector<double> column;
     bool is_reached; ///< the measure has values over its reach: its effect is no extrapolation
 };
 
@@ -62,6 +52,12 @@ constexpr double least_reach = 0.75;
 /// How near to 0 the middle of a parameter's values is.
 constexpr double middle = 1e-9;
 
+std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> result;
+    std::ranges::transform(a, b, std::back_inserter(result), std::multiplies());
+    return result;
+}
+
 /// Greatest less least place.
 double reach(const std::vector<double>& places) {
     const auto [least, greatest] = std::ranges::minmax(places);
@@ -76,16 +72,16 @@ struct Variance {
 
 /// Variance of a run about the mean of its point and seed; none without repeated points.
 std::optional<Variance> variance_of_repeats(const std::vector<std::size_t>& point,
-                                            const std::vector<int>& seed, const VectorXd& y) {
-    Columns means{{VectorXd::Ones(y.size())}};
-    means.add_indicators(point);
-    means.add_indicators(seed);
-    const MatrixXd m = means.matrix();
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
-    const auto freedom = static_cast<int>(y.size() - solver.rank());
+                                            const std::vector<int>& seed,
+                                            const std::vector<double>& y) {
+    Columns means{std::vector<double>(y.size(), 1.0)};
+    add_indicators(means, point);
+    add_indicators(means, seed);
+    const LeastSquares model(means);
+    const auto freedom = static_cast<int>(y.size() - model.rank());
     if (freedom < 1)
         return std::nullopt;
-    return Variance{(y - m * solver.solve(y)).squaredNorm() / freedom, freedom};
+    return Variance{model.residual(y) / freedom, freedom};
 }
 
 /// Adds what chance may do. What is round-off, beside values of such a size, is no effect.
@@ -114,14 +110,13 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
     std::vector<SweepEffect> effects;
     if (runs.empty())
         return effects;
-    const auto n = static_cast<Eigen::Index>(runs.size());
-    VectorXd y(n);
-    for (Eigen::Index k = 0; k < n; ++k)
-        y(k) = *values[runs[static_cast<std::size_t>(k)]];
+    std::vector<double> y;
+    for (std::size_t k : runs)
+        y.push_back(*values[k]);
     const std::vector<int> seeds = kept(seed, runs);
 
-    Columns model{{VectorXd::Ones(n)}};
-    model.add_indicators(seeds);
+    Columns columns{std::vector<double>(y.size(), 1.0)};
+    add_indicators(columns, seeds);
     std::vector<Term> main;
     for (const SweepFactor& factor : factors)
         if (factor.word.empty()) {
@@ -129,36 +124,32 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
             const auto [least, greatest] = std::ranges::minmax(place);
             if (least > middle || greatest < -middle) // where all other effects are told
                 return effects;
-            main.push_back({factor.name, Eigen::Map<const VectorXd>(place.data(), n),
-                            reach(place) >= least_reach * reach(factor.place)});
+            main.push_back({factor.name, place, reach(place) >= least_reach * reach(factor.place)});
         } else {
-            model.add_indicators(kept(std::span(factor.word), runs));
+            add_indicators(columns, kept(std::span(factor.word), runs));
         }
-    const std::size_t first_term = model.columns.size();
+    const std::size_t first_term = columns.size();
     std::vector<Term> terms = main;
     for (std::size_t a = 0; a < main.size(); ++a)
         for (std::size_t b = a + 1; b < main.size(); ++b)
             terms.push_back({main[a].name + ":" + main[b].name,
-                             main[a].column.cwiseProduct(main[b].column),
+                             product(main[a].column, main[b].column),
                              main[a].is_reached && main[b].is_reached});
     for (const Term& term : terms)
-        model.columns.push_back(term.column);
+        columns.push_back(term.column);
 
-    const MatrixXd m = model.matrix();
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
-    const MatrixXd inverse = solver.pseudoInverse();
-    const VectorXd fit = inverse * y;
-    const MatrixXd told_apart = inverse * m; // the identity, as far as columns are independent
+    const LeastSquares model(columns);
     const auto variance = variance_of_repeats(kept(point, runs), seeds, y);
+    double largest = 0.0;
+    for (double value : y)
+        largest = std::max(largest, std::abs(value));
     for (std::size_t k = 0; k < terms.size(); ++k) {
-        const auto j = static_cast<Eigen::Index>(first_term + k);
-        VectorXd rest = told_apart.row(j);
-        rest(j) -= 1.0;
-        if (rest.cwiseAbs().maxCoeff() > 1e-8 || !terms[k].is_reached)
+        const auto weights = model.weights(first_term + k);
+        if (!weights || !terms[k].is_reached)
             continue;
-        SweepEffect effect{measure, terms[k].name, 2.0 * fit(j), std::nullopt};
+        SweepEffect effect{measure, terms[k].name, 2.0 * dot(*weights, y), std::nullopt};
         if (variance)
-            add_chance(effect, *variance, inverse.row(j).squaredNorm(), y.cwiseAbs().maxCoeff());
+            add_chance(effect, *variance, dot(*weights, *weights), largest);
         effects.push_back(std::move(effect));
     }
     return effects;

@@ -7,6 +7,7 @@
 #include "dem/units.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
