@@ -14,12 +14,35 @@ add_library(listric_flags INTERFACE)
 target_compile_features(listric_flags INTERFACE cxx_std_20)
 target_compile_options(listric_flags INTERFACE ${floating_point_flags})
 
+# Headers of the standard library that most sources include, for precompiled headers.
+set(standard_headers <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <span> <string> <utility>
+  <vector>)
+
+# listric_balance(TARGET MOST): units of equal numbers of files, of MOST at most. In batches of one number the last unit
+# may have a single file, and compile all headers and templates for it.
+function(listric_balance target most)
+  get_target_property(sources ${target} SOURCES)
+  set(count 0)
+  foreach(source ${sources})
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
+    if(NOT alone)
+      math(EXPR count "${count} + 1")
+    endif()
+  endforeach()
+  math(EXPR units "(${count} + ${most} - 1) / ${most}")
+  if(units)
+    math(EXPR batch "(${count} + ${units} - 1) / ${units}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
+
 # listric_library(NAME SOURCES ... LINK ...): the static library listric_NAME. Headers include each
 # other from the project's root.
 function(listric_library name)
   cmake_parse_arguments(PARSE_ARGV 1 library "" "" "SOURCES;LINK")
   add_library(listric_${name} STATIC ${library_SOURCES})
   add_library(listric::${name} ALIAS listric_${name})
+  listric_balance(listric_${name} 22)
   target_link_libraries(listric_${name} PUBLIC listric_flags ${library_LINK})
   target_include_directories(listric_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -5,6 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/accuracy.hpp"
+#include "apps/studies/sweep/student.hpp"
 #include "apps/studies/sweep/sweep_effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/machine/shell.hpp"

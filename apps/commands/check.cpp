@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/oversize.hpp"
 #include "apps/scene/parameters/material_file.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
@@ -126,7 +127,7 @@ std::string check_validation(const fs::path& file) {
 
 /// Good news of a file, whose keys show its purpose. Throws SceneError.
 std::string check(const std::string& name, const fs::path& file, Times& times) {
-    const toml::table document = scenes.read(file);
+    const toml::table document = read_document(scenes, file);
     const auto has = [&](std::initializer_list<std::string_view> keys) {
         return std::ranges::any_of(keys, [&](auto key) { return document.contains(key); });
     };

@@ -1,6 +1,6 @@
 #include "apps/figures/picture_order.hpp"
 
-#include "apps/support/files/json_text.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/version.hpp"
 
 namespace listric {

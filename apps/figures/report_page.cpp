@@ -12,9 +12,9 @@
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/toml/differences.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/files/picture.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "apps/support/version.hpp"
@@ -154,17 +154,14 @@ std::string data_of(const ReportPage& page) {
                 {{"name", field->name}, {"label", label_of(*field)}, {"doc", field->doc}});
     if (page.underlay)
         head["underlay"] = underlay_of(*page.underlay);
-    const auto dumped = [](const json& value) {
-        return value.dump(-1, ' ', false, json::error_handler_t::replace);
-    };
     std::string runs;
     for (const ReportPage::Run& run : page.runs) {
-        std::string text = dumped(head_of(run));
+        std::string text = to_text(head_of(run));
         text.pop_back(); // the moments are text already
         runs += fmt::format("{}{},\"moments\":{}}}", runs.empty() ? "" : ",\n", text,
                             run.moments.json());
     }
-    std::string text = dumped(head);
+    std::string text = to_text(head);
     text.pop_back();
     return as_data(fmt::format("{},\"runs\":[{}]}}", text, runs));
 }

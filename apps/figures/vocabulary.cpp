@@ -6,6 +6,8 @@
 #include "dem/numbers/elementary.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -3,7 +3,7 @@
 #include "apps/scene/parameters/effect.hpp"
 #include "fem/footwall.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <span>
 #include <string>

@@ -1,8 +1,8 @@
 #include "apps/figures/well_figure.hpp"
 
 #include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/machine/python.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/moment_names.hpp"

@@ -12,6 +12,7 @@
 #include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cassert>

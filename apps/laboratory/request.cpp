@@ -8,6 +8,7 @@
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace listric {
 

@@ -5,6 +5,7 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/measure_names.hpp"
+#include "apps/scene/toml/toml.hpp"
 #include "apps/support/files/file.hpp"
 
 #include <fmt/format.h>

@@ -12,6 +12,7 @@
 #include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -5,19 +5,21 @@
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/effect_prices.hpp"
 #include "apps/run/forecast/prediction.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/file_names.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/scene/toml/schema.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/files/picture.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -79,7 +81,7 @@ toml::array pieces_of(const dem::DetachmentParameters& detachment) {
 /// The scene's document with pieces in place of a picked fault, and without picks, which the page
 /// has as lines; its picture stays named.
 std::string scene_text(const Scene& scene, const fs::path& path, EffectList effects) {
-    toml::table document = scenes.read(path);
+    toml::table document = read_document(scenes, path);
     take_out_former_keys(document, effects);
     make_names_absolute(document, path.parent_path(), effects);
     document.erase("picked_fault");

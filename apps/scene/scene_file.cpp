@@ -2,6 +2,7 @@
 
 #include "apps/scene/picks/picks_check.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/toml/tables.hpp"
@@ -434,19 +435,6 @@ void set_accuracy(Scene& scene) {
 
 // ------------------------------------------------------------------------------------- interface
 
-toml::table merged_document(const SceneRequest& request, const fs::path& path) {
-    toml::table document = scenes.read(path);
-    for (const std::string& assignment : request.set)
-        set(document, assignment, "--set " + assignment);
-    if (request.accuracy)
-        set(document, "accuracy=" + quoted(*request.accuracy), "--accuracy " + *request.accuracy);
-    if (request.seed) {
-        const std::string seed = std::to_string(*request.seed);
-        set(document, "seed=" + seed, "--seed " + seed);
-    }
-    return document;
-}
-
 void take_out_former_keys(toml::table& document, EffectList effects) {
     for (const Effect* effect : effects)
         for (const FormerKey& former : effect->former) {
@@ -579,7 +567,7 @@ std::vector<std::pair<std::string, std::string>> list_scenes() {
     for (const std::string& name : scenes.names()) {
         std::string description;
         try {
-            const toml::table document = scenes.read(scenes.path() / (name + ".toml"));
+            const toml::table document = read_document(scenes, scenes.path() / (name + ".toml"));
             description = document["description"].value_or(std::string());
         } catch (const SceneError& error) {
             description = error.what(); // one bad file must not hide the others

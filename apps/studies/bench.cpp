@@ -1,8 +1,8 @@
 #include "apps/studies/bench.hpp"
 
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts/contacts.hpp"

@@ -2,11 +2,13 @@
 
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -126,7 +128,7 @@ fs::path find_scene_or_plan(const std::string& name_or_path) {
 
 bool is_flexure_plan(const std::string& name_or_path) {
     try {
-        return flexure_shelf.read(find_scene_or_plan(name_or_path)).contains("flexure");
+        return read_document(flexure_shelf, find_scene_or_plan(name_or_path)).contains("flexure");
     } catch (const SceneError&) {
         return false; // load_scene() says why
     }

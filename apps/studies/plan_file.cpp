@@ -2,11 +2,12 @@
 
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/toml/shelf.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -19,7 +20,7 @@ namespace listric {
 
 toml::table study_plan(const std::string& name) {
     constexpr Shelf shelf{"study's plan", "it needs what is varied", "", "studies"};
-    return shelf.read(shelf.find(name));
+    return read_document(shelf, shelf.find(name));
 }
 
 std::vector<std::string> words(const std::string& text) {

@@ -16,6 +16,7 @@
 #include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

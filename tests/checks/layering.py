@@ -50,6 +50,21 @@ FOREIGN = {
              "pugixml.hpp", "zlib.h", "csv.h"),
 }
 
+# Headers that take a second or more to compile, each with the headers that may include it. A source includes what it
+# uses; a header hands it to all who include the header.
+HEAVY = {
+    "toml++/": {"apps/scene/toml/toml.hpp"},
+    "apps/scene/toml/toml.hpp": {"apps/scene/toml/document.hpp", "apps/scene/scene_checks.hpp",
+                                 "apps/studies/plan_file.hpp"},
+    # These hold a value of JSON; others do with nlohmann/json_fwd.hpp.
+    "nlohmann/json.hpp": {"apps/figures/picture_order.hpp", "apps/laboratory/report.hpp",
+                          "apps/laboratory/calibration_fit.hpp"},
+    "Eigen/": {f"apps/scene/svg/svg_{name}.hpp" for name in ("path", "place", "transform")},
+    "unsupported/Eigen/": set(),
+    "CLI/": {f"apps/commands/{name}.hpp" for name in ("command", "underlay", "asked_accuracy", "help/help")},
+    "regex": set(),
+}
+
 
 def rooms_seen_from(place):
     """Rooms of which a file in `place` may include headers."""
@@ -106,10 +121,18 @@ def violations_in_dem(tree):
     return found
 
 
+def heavy_headers(tree):
+    """Includes that make a header, and so all who read it, slow to compile."""
+    return [f"{path}: must not include {name}, which is slow to compile: the sources that need it do"
+            for path, text in tree.items() if path.endswith(".hpp") for name in includes(text)
+            for heavy, allowed in HEAVY.items()
+            if path not in allowed and (name == heavy or heavy.endswith("/") and name.startswith(heavy))]
+
+
 def violations(tree):
     """Every forbidden include, file in no room and cycle of units of a tree, one line each, and what
-    violations_in_dem() finds."""
-    found = violations_in_dem(tree)
+    violations_in_dem() and heavy_headers() find."""
+    found = violations_in_dem(tree) + heavy_headers(tree)
     for path, text in tree.items():
         if room(path) == READER and not is_cpp(path):
             continue

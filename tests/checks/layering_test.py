@@ -1,6 +1,6 @@
 import unittest
 
-from layering import ELEMENTS, RANKS, ROOF_OF_DEM, SPECIFICATION, violations
+from layering import ELEMENTS, HEAVY, RANKS, ROOF_OF_DEM, SPECIFICATION, violations
 from source_tree import read_tree, unit
 
 
@@ -134,6 +134,19 @@ class PlantedViolations(unittest.TestCase):
             with self.subTest(line):
                 self.assertEqual(self.found({path: line}), [f"{path}: {word}: that is for dem/ranks"])
 
+    def test_a_header_that_is_slow_to_compile(self):
+        slow = "must not include {}, which is slow to compile: the sources that need it do"
+        for path, name, line in (("apps/scene/toml/shelf.hpp", "apps/scene/toml/toml.hpp", '"apps/scene/toml/toml.hpp"'),
+                                 ("apps/scene/toml/shelf.hpp", "toml++/toml.h", "<toml++/toml.h>"),
+                                 ("apps/run/run_view.hpp", "nlohmann/json.hpp", "<nlohmann/json.hpp>"),
+                                 ("apps/support/statistics.hpp", "Eigen/Dense", "<Eigen/Dense>"),
+                                 ("apps/run/run_view.hpp", "CLI/CLI.hpp", "<CLI/CLI.hpp>"),
+                                 ("apps/support/words/pattern.hpp", "regex", "<regex>")):
+            with self.subTest(path=path, name=name):
+                self.assertEqual(self.found(included(path, line)), [f"{path}: {slow.format(name)}"])
+                self.assertEqual(self.found(included(path.replace(".hpp", ".cpp"), line)), [])
+        self.assertEqual(self.found(included("apps/archive/quality.hpp", "<nlohmann/json_fwd.hpp>")), [])
+
     def test_what_is_no_include(self):
         self.assertEqual(self.found({"dem/cycle/cycle.cpp": '// #include "apps/run/run.hpp"\n'
                                                       'int include;\n'}), [])
@@ -153,6 +166,7 @@ class Sources(unittest.TestCase):
         sources = read_tree()
         self.assertLessEqual(SPECIFICATION, sources.keys())
         self.assertLessEqual(ELEMENTS | RANKS | ROOF_OF_DEM, {unit(path) for path in sources})
+        self.assertLessEqual(set().union(*HEAVY.values()), sources.keys())
 
 
 if __name__ == "__main__":

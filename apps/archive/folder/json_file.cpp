@@ -3,6 +3,8 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace listric {

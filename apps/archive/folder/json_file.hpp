@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/support/files/json_text.hpp"
+#include "apps/scene/toml/json_text.hpp"
 
 #include <filesystem>
 #include <optional>

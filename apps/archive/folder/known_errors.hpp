@@ -4,7 +4,7 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/measure.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <span>

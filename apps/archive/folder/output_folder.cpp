@@ -15,6 +15,7 @@
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -3,7 +3,7 @@
 #include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/scene/scene.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>

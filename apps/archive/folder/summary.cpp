@@ -9,6 +9,7 @@
 #include "apps/support/fineness.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -207,9 +208,9 @@ std::string to_csv(const Table& table) {
 std::string summary_json(const SummaryContent& content) {
     Json json = summary_head(content);
     add_numbers(json, content);
-    if (!content.rocks.is_null())
-        json["rocks"] = content.rocks;
-    json["provenance"] = content.provenance;
+    if (content.rocks)
+        json["rocks"] = *content.rocks;
+    json["provenance"] = content.provenance ? *content.provenance : nlohmann::ordered_json();
     json["effects"] = content.effects;
     json["warnings"] = content.warnings;
     json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
@@ -224,8 +225,8 @@ std::string summary_json(const SummaryContent& content) {
     if (!content.observed.empty())
         json[std::string(observed_horizons.name)] = observed_list(content.observed);
     add_faults(json, content.faults, fineness(content.state.mean_radius));
-    if (!content.known_errors.is_null())
-        json[std::string(known_errors_quantity.name)] = content.known_errors;
+    if (content.known_errors)
+        json[std::string(known_errors_quantity.name)] = *content.known_errors;
     return to_text(json, 2) + "\n";
 }
 

@@ -9,7 +9,7 @@
 #include "dem/column.hpp"
 #include "dem/state.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -48,9 +48,9 @@ struct SummaryContent {
     std::vector<ObservedHorizon> observed = {}; ///< beside the model's
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
-    nlohmann::ordered_json rocks = {};        ///< rock_record.hpp; null: not recorded
-    nlohmann::ordered_json provenance = {};   ///< provenance.hpp
-    nlohmann::ordered_json known_errors = {}; ///< known_errors.hpp; null: it has none
+    const nlohmann::ordered_json* rocks = nullptr;        ///< rock_record.hpp; none: not recorded
+    const nlohmann::ordered_json* provenance = nullptr;   ///< provenance.hpp
+    const nlohmann::ordered_json* known_errors = nullptr; ///< known_errors.hpp; none: it has none
 };
 
 /// Quantities of every run. One without a function is taken elsewhere.

@@ -11,6 +11,7 @@
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/support/measure.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <string_view>

@@ -13,6 +13,7 @@
 #include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "apps/archive/tables/fault_fields.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

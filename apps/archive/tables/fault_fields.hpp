@@ -2,7 +2,7 @@
 
 #include "apps/measures/faults/fault.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <span>

@@ -4,6 +4,7 @@
 #include "apps/measures/dictionary.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <string_view>
 

@@ -1,10 +1,11 @@
 #include "apps/archive/tables/line_table.hpp"
 
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/csv_records.hpp"
-#include "apps/support/files/json_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <span>

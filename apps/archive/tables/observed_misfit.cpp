@@ -4,6 +4,7 @@
 #include "apps/scene/picks/picked_pieces.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

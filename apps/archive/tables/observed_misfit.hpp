@@ -6,7 +6,7 @@
 #include "apps/support/measure.hpp"
 #include "dem/state.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <span>

@@ -2,6 +2,8 @@
 
 #include "apps/archive/folder/json_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 
 namespace listric::archive {

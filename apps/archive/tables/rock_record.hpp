@@ -2,7 +2,7 @@
 
 #include "apps/scene/picks/rock_line.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -3,10 +3,12 @@
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
-#include "apps/support/files/json_text.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <memory>

@@ -1,9 +1,9 @@
 #include "apps/archive/tables/fault_fields.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/measures/faults/moved_points.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/csv.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/measures/strata/cohesion.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/encoding.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
@@ -17,6 +17,7 @@
 #include "fluid/columns.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

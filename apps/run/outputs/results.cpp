@@ -8,6 +8,7 @@
 #include "apps/scene/parameters/accuracy.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

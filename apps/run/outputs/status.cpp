@@ -4,6 +4,8 @@
 #include "apps/run/run_view.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #include "apps/scene/parameters/material_file.hpp"
 
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/pieces.hpp"
-#include "apps/scene/toml/toml.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 
@@ -39,7 +39,7 @@ bool must_be_said(const Parameter& parameter) {
 
 RockMaterial read_material(const std::filesystem::path& file,
                            const std::vector<std::string>& changes) {
-    toml::table document = materials.read(file);
+    toml::table document = read_document(materials, file);
     for (const std::string& change : changes)
         set(document, change, "--set " + change);
     RockMaterial rock;

@@ -3,12 +3,12 @@
 #include "apps/scene/toml/tables.hpp"
 #include "apps/scene/toml/toml.hpp"
 #include "apps/support/words/number.hpp"
+#include "apps/support/words/pattern.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <utility>
 
 namespace listric {
@@ -17,19 +17,17 @@ namespace {
 
 /// A value as a scene writes it, with numbers of so many digits; words stay.
 std::string rounded(const std::string& value, int digits) {
-    static const std::regex number(R"(-?[0-9]+\.[0-9]+([eE][-+]?[0-9]+)?)"); // whole ones are exact
     if (value.find('"') != std::string::npos)
         return value;
     std::string shown;
-    auto from = value.begin();
-    for (std::sregex_iterator found(value.begin(), value.end(), number), end; found != end;
-         ++found) {
-        shown.append(from, (*found)[0].first);
-        shown += text(*parse_number(
-            fmt::format("{:.{}g}", parse_number(found->str()).value_or(0.0), digits)));
-        from = (*found)[0].second;
+    std::size_t from = 0; // whole numbers are exact
+    for (const auto& [begin, size] : find_all(value, R"(-?[0-9]+\.[0-9]+([eE][-+]?[0-9]+)?)")) {
+        shown.append(value, from, begin - from);
+        const double number = parse_number(value.substr(begin, size)).value_or(0.0);
+        shown += text(*parse_number(fmt::format("{:.{}g}", number, digits)));
+        from = begin + size;
     }
-    return shown.append(from, value.end());
+    return shown.append(value, from);
 }
 
 /// Two values with the digits that tell them apart, six at least.

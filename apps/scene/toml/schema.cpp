@@ -1,13 +1,14 @@
 #include "apps/scene/toml/schema.hpp"
 
 #include "apps/scene/toml/file_names.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/scene/toml/toml.hpp"
-#include "apps/support/files/json_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -41,12 +42,12 @@ Json array_of(Json item, int least = 0) {
 
 } // namespace
 
-Json closed_table(std::string_view doc, Json properties, Json required) {
+Json closed_table(std::string_view doc, Json properties, const std::vector<std::string>& required) {
     Json schema{{"type", "object"}, {"additionalProperties", false}};
     if (!doc.empty())
         schema["description"] = doc;
     if (!required.empty())
-        schema["required"] = std::move(required);
+        schema["required"] = required;
     schema["properties"] = std::move(properties);
     return schema;
 }
@@ -176,13 +177,14 @@ Json parameter_schema(const Parameter& parameter, const void* object) {
 
 Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
                   const void* object) {
-    Json properties = Json::object(), required = Json::array();
+    Json properties = Json::object();
+    std::vector<std::string> required;
     for (const Parameter& parameter : parameters) {
         properties[std::string(parameter.key)] = parameter_schema(parameter, object);
         if (is_required(parameter, object))
-            required.push_back(parameter.key);
+            required.emplace_back(parameter.key);
     }
-    return closed_table(doc, std::move(properties), std::move(required));
+    return closed_table(doc, std::move(properties), required);
 }
 
 std::string finished_schema(const char* title, const Json& schema) {

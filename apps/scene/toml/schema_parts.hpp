@@ -2,7 +2,7 @@
 
 #include "apps/scene/parameters/parameter.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <string_view>
@@ -13,9 +13,8 @@
 namespace listric {
 
 /// A table that has no other keys.
-nlohmann::ordered_json
-closed_table(std::string_view doc, nlohmann::ordered_json properties,
-             nlohmann::ordered_json required = nlohmann::ordered_json::array());
+nlohmann::ordered_json closed_table(std::string_view doc, nlohmann::ordered_json properties,
+                                    const std::vector<std::string>& required = {});
 
 /// A table of declared parameters, with the defaults of the object.
 nlohmann::ordered_json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "apps/scene/toml/toml.hpp"
-
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,7 +22,6 @@ struct Shelf {
     /// mean; empty: it is not.
     std::string namesake(const std::string& name_or_path,
                          const std::filesystem::path& folder) const;
-    toml::table read(const std::filesystem::path& file) const;
 };
 
 /// Whether a file is given by its path rather than by its name on a shelf.

@@ -1,6 +1,7 @@
 #include "apps/scene/toml/template.hpp"
 
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/machine/resources.hpp"
@@ -100,7 +101,7 @@ std::string table_of(const SceneTable& table, const Scene& scene, const Given& g
 std::string scene_template(const std::string& from, EffectList effects) {
     const fs::path path = scenes.find(from);
     const Scene scene = load_scene({.scene = from}, effects);
-    const Given given{scenes.read(path), path.parent_path()};
+    const Given given{read_document(scenes, path), path.parent_path()};
     std::string lines = fmt::format("#:schema file://{}\n"
                                     "# Made from {}. A line that begins with # is a comment: "
                                     "remove the # to set another value\n"

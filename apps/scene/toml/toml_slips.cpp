@@ -1,6 +1,7 @@
 #include "apps/scene/toml/toml_slips.hpp"
 
 #include "apps/support/words/number.hpp"
+#include "apps/support/words/pattern.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <regex>
 
 namespace listric {
 
@@ -39,15 +39,13 @@ std::string_view last_key(std::string_view path) {
 
 /// "10 km" in units of a key.
 std::optional<double> in_unit_of(std::string_view key, const std::string& value) {
-    static const std::regex number_and_unit(
-        "([+-]?[0-9]+(?:[.,][0-9]*)?(?:[eE][+-]?[0-9]+)?) *(\\S+)");
-    std::smatch parts;
-    if (key.find("_per_") != key.npos || !std::regex_match(value, parts, number_and_unit))
+    const auto parts = parts_of(value, "([+-]?[0-9]+(?:[.,][0-9]*)?(?:[eE][+-]?[0-9]+)?) *(\\S+)");
+    if (key.find("_per_") != key.npos || !parts)
         return std::nullopt;
-    std::string digits = parts[1].str();
+    std::string digits = (*parts)[1];
     std::ranges::replace(digits, ',', '.');
     const auto number = parse_number(digits);
-    const std::string word = parts[2].str();
+    const std::string word = (*parts)[2];
     for (const WrittenUnit& unit : written_units)
         if (number && key.ends_with(unit.end) && word == unit.word)
             return *number * unit.factor;
@@ -60,10 +58,6 @@ std::string bare_text(std::string value) {
         for (auto at = value.find(mark); at != value.npos; at = value.find(mark))
             value.erase(at, mark.size());
     return value;
-}
-
-bool is_match(const std::string& text, const char* pattern) {
-    return std::regex_match(text, std::regex(pattern));
 }
 
 std::string cure_of_value(const std::string& key, const std::string& value) {
@@ -107,9 +101,8 @@ std::string cure_of_line(std::string_view document, std::size_t line) {
     const std::string text(document.substr(0, document.find_first_of("\r\n")));
     if (text.size() > longest_slip)
         return "";
-    static const std::regex pair("\\s*([A-Za-z0-9_.-]+)\\s*=\\s*(.*?)\\s*(#.*)?");
-    std::smatch parts;
-    return std::regex_match(text, parts, pair) ? cure_of_value(parts[1].str(), parts[2].str()) : "";
+    const auto parts = parts_of(text, "\\s*([A-Za-z0-9_.-]+)\\s*=\\s*(.*?)\\s*(#.*)?");
+    return parts ? cure_of_value((*parts)[1], (*parts)[2]) : "";
 }
 
 namespace {

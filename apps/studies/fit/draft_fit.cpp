@@ -1,8 +1,9 @@
 #include "apps/studies/fit/draft_fit.hpp"
-#include "dem/numbers/elementary.hpp"
 
-#include <Eigen/Dense>
+#include "apps/support/least_squares.hpp"
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,13 @@ namespace {
 
 using BoxPlace = std::array<double, 3>;
 
-constexpr int terms = 10;
+constexpr std::size_t terms = 10;
 constexpr int steps_of_search = 40; ///< of half the box along each number
 
 /// 1, the numbers, their squares and products.
-Eigen::Matrix<double, 1, terms> terms_at(const BoxPlace& p) {
-    Eigen::Matrix<double, 1, terms> row;
-    row << 1.0, p[0], p[1], p[2], p[0] * p[0], p[1] * p[1], p[2] * p[2], p[0] * p[1], p[0] * p[2],
-        p[1] * p[2];
-    return row;
+std::array<double, terms> terms_at(const BoxPlace& p) {
+    return {1.0,         p[0],        p[1],        p[2],        p[0] * p[0],
+            p[1] * p[1], p[2] * p[2], p[0] * p[1], p[0] * p[2], p[1] * p[2]};
 }
 
 /// Where a shape is in the box.
@@ -79,22 +78,26 @@ std::optional<DraftFit> fit_drafts(const DraftDesign& design, std::span<const Dr
     std::vector<DraftMisfit> made;
     std::ranges::copy_if(drafts, std::back_inserter(made),
                          [](const DraftMisfit& draft) { return draft.misfit.has_value(); });
-    const auto count = static_cast<Eigen::Index>(made.size());
-    if (count <= terms)
+    if (made.size() <= terms)
         return std::nullopt;
-    Eigen::MatrixXd matrix(count, terms);
-    Eigen::VectorXd squares(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const DraftMisfit& draft = made[static_cast<std::size_t>(k)];
-        matrix.row(k) = terms_at(place_in(design, draft.shape));
-        squares(k) = *draft.misfit * *draft.misfit;
+    std::vector<std::vector<double>> columns(terms);
+    std::vector<double> squares;
+    for (const DraftMisfit& draft : made) {
+        const auto row = terms_at(place_in(design, draft.shape));
+        for (std::size_t k = 0; k < terms; ++k)
+            columns[k].push_back(row[k]);
+        squares.push_back(*draft.misfit * *draft.misfit);
     }
-    const auto factors = matrix.colPivHouseholderQr();
-    if (factors.rank() < terms)
-        return std::nullopt;
-    const Eigen::VectorXd coefficients = factors.solve(squares);
+    const LeastSquares model(columns);
+    std::array<double, terms> coefficients{};
+    for (std::size_t k = 0; k < terms; ++k) {
+        const auto weights = model.weights(k);
+        if (!weights)
+            return std::nullopt;
+        coefficients[k] = dot(*weights, squares);
+    }
     const auto misfit_at = [&](const BoxPlace& place) {
-        return std::sqrt(std::max(0.0, (terms_at(place) * coefficients).value()));
+        return std::sqrt(std::max(0.0, dot(terms_at(place), coefficients)));
     };
     DraftFit fit;
     double squared = 0.0;
@@ -102,7 +105,7 @@ std::optional<DraftFit> fit_drafts(const DraftDesign& design, std::span<const Dr
         const double off = misfit_at(place_in(design, draft.shape)) - *draft.misfit;
         squared += off * off;
     }
-    fit.residual = std::sqrt(squared / static_cast<double>(count - terms));
+    fit.residual = std::sqrt(squared / static_cast<double>(made.size() - terms));
     constexpr int values = 2 * steps_of_search + 1;
     const auto coordinate = [](int k) { return static_cast<double>(k) / steps_of_search - 1.0; };
     std::array<std::array<double, values>, 3> least;

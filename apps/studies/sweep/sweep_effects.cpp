@@ -1,12 +1,15 @@
 #include "apps/studies/sweep/sweep_effects.hpp"
 
-#include <Eigen/Dense>
+#include "apps/studies/sweep/student.hpp"
+#include "apps/support/least_squares.hpp"
+
 #include <fmt/format.h>
-#include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -14,37 +17,26 @@ namespace listric {
 
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 /// Columns of a linear model, a row a run.
-struct Columns {
-    std::vector<VectorXd> columns = {};
+using Columns = std::vector<std::vector<double>>;
 
-    MatrixXd matrix() const {
-        MatrixXd m(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            m.col(static_cast<Eigen::Index>(k)) = columns[k];
-        return m;
+/// Adds one for every value but the first, of which the others tell the difference.
+template <class Value> void add_indicators(Columns& columns, const std::vector<Value>& of) {
+    std::set<Value> all(of.begin(), of.end());
+    if (!all.empty())
+        all.erase(all.begin());
+    for (const Value& value : all) {
+        std::vector<double> column;
+        for (const Value& one : of)
+            column.push_back(one == value ? 1.0 : 0.0);
+        columns.push_back(std::move(column));
     }
-    /// One for every value but the first, of which the others tell the difference.
-    template <class Value> void add_indicators(const std::vector<Value>& of) {
-        std::set<Value> all(of.begin(), of.end());
-        if (!all.empty())
-            all.erase(all.begin());
-        for (const Value& value : all) {
-            VectorXd column(static_cast<Eigen::Index>(of.size()));
-            for (std::size_t k = 0; k < of.size(); ++k)
-                column(static_cast<Eigen::Index>(k)) = of[k] == value ? 1.0 : 0.0;
-            columns.push_back(std::move(column));
-        }
-    }
-};
+}
 
 /// A parameter, or two together.
 struct Term {
     std::string name;
-    VectorXd column;
+    std::vector<double> column;
     bool is_reached; ///< the measure has values over its reach: its effect is no extrapolation
 };
 
@@ -63,6 +55,12 @@ constexpr double least_reach = 0.75;
 /// How near to 0 the middle of a parameter's values is.
 constexpr double middle = 1e-9;
 
+std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> result;
+    std::ranges::transform(a, b, std::back_inserter(result), std::multiplies());
+    return result;
+}
+
 /// Greatest less least place.
 double reach(const std::vector<double>& places) {
     const auto [least, greatest] = std::ranges::minmax(places);
@@ -77,16 +75,16 @@ struct Variance {
 
 /// Variance of a run about the mean of its point and seed; none without repeated points.
 std::optional<Variance> variance_of_repeats(const std::vector<std::size_t>& point,
-                                            const std::vector<int>& seed, const VectorXd& y) {
-    Columns means{{VectorXd::Ones(y.size())}};
-    means.add_indicators(point);
-    means.add_indicators(seed);
-    const MatrixXd m = means.matrix();
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
-    const auto freedom = static_cast<int>(y.size() - solver.rank());
+                                            const std::vector<int>& seed,
+                                            const std::vector<double>& y) {
+    Columns means{std::vector<double>(y.size(), 1.0)};
+    add_indicators(means, point);
+    add_indicators(means, seed);
+    const LeastSquares model(means);
+    const auto freedom = static_cast<int>(y.size() - model.rank());
     if (freedom < 1)
         return std::nullopt;
-    return Variance{(y - m * solver.solve(y)).squaredNorm() / freedom, freedom};
+    return Variance{model.residual(y) / freedom, freedom};
 }
 
 /// Adds what chance may do. What is round-off, beside values of such a size, is no effect.
@@ -129,14 +127,13 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
     std::vector<SweepEffect> effects;
     if (runs.empty())
         return effects;
-    const auto n = static_cast<Eigen::Index>(runs.size());
-    VectorXd y(n);
-    for (Eigen::Index k = 0; k < n; ++k)
-        y(k) = *values[runs[static_cast<std::size_t>(k)]];
+    std::vector<double> y;
+    for (std::size_t k : runs)
+        y.push_back(*values[k]);
     const std::vector<int> seeds = kept(seed, runs);
 
-    Columns model{{VectorXd::Ones(n)}};
-    model.add_indicators(seeds);
+    Columns columns{std::vector<double>(y.size(), 1.0)};
+    add_indicators(columns, seeds);
     std::vector<Term> main;
     for (const SweepFactor& factor : factors)
         if (factor.word.empty()) {
@@ -144,36 +141,32 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
             const auto [least, greatest] = std::ranges::minmax(place);
             if (least > middle || greatest < -middle) // where all other effects are told
                 return effects;
-            main.push_back({factor.name, Eigen::Map<const VectorXd>(place.data(), n),
-                            reach(place) >= least_reach * reach(factor.place)});
+            main.push_back({factor.name, place, reach(place) >= least_reach * reach(factor.place)});
         } else {
-            model.add_indicators(kept(std::span(factor.word), runs));
+            add_indicators(columns, kept(std::span(factor.word), runs));
         }
-    const std::size_t first_term = model.columns.size();
+    const std::size_t first_term = columns.size();
     std::vector<Term> terms = main;
     for (std::size_t a = 0; a < main.size(); ++a)
         for (std::size_t b = a + 1; b < main.size(); ++b)
             terms.push_back({main[a].name + ":" + main[b].name,
-                             main[a].column.cwiseProduct(main[b].column),
+                             product(main[a].column, main[b].column),
                              main[a].is_reached && main[b].is_reached});
     for (const Term& term : terms)
-        model.columns.push_back(term.column);
+        columns.push_back(term.column);
 
-    const MatrixXd m = model.matrix();
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
-    const MatrixXd inverse = solver.pseudoInverse();
-    const VectorXd fit = inverse * y;
-    const MatrixXd told_apart = inverse * m; // the identity, as far as columns are independent
+    const LeastSquares model(columns);
     const auto variance = variance_of_repeats(kept(point, runs), seeds, y);
+    double largest = 0.0;
+    for (double value : y)
+        largest = std::max(largest, std::abs(value));
     for (std::size_t k = 0; k < terms.size(); ++k) {
-        const auto j = static_cast<Eigen::Index>(first_term + k);
-        VectorXd rest = told_apart.row(j);
-        rest(j) -= 1.0;
-        if (rest.cwiseAbs().maxCoeff() > 1e-8 || !terms[k].is_reached)
+        const auto weights = model.weights(first_term + k);
+        if (!weights || !terms[k].is_reached)
             continue;
-        SweepEffect effect{measure, terms[k].name, 2.0 * fit(j), std::nullopt};
+        SweepEffect effect{measure, terms[k].name, 2.0 * dot(*weights, y), std::nullopt};
         if (variance)
-            add_chance(effect, *variance, inverse.row(j).squaredNorm(), y.cwiseAbs().maxCoeff());
+            add_chance(effect, *variance, dot(*weights, *weights), largest);
         effects.push_back(std::move(effect));
     }
     return effects;
@@ -221,26 +214,6 @@ std::string warning_of_few(int seeds) {
                : "two seeds show little of chance: by Student's t an effect of one parameter with "
                  "two values must be 12.7 standard errors large to be clear, with three seeds 4.3 "
                  "(seeds = 3)";
-}
-
-double student_p(double t, double degrees_of_freedom) {
-    assert(degrees_of_freedom > 0.0);
-    if (std::isinf(t))
-        return 0.0;
-    // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.27.
-    return Eigen::numext::betainc(0.5 * degrees_of_freedom, 0.5,
-                                  degrees_of_freedom / (degrees_of_freedom + t * t));
-}
-
-double student_quantile(double probability, double degrees_of_freedom) {
-    assert(probability > 0.0 && probability < 1.0);
-    const double beyond = 1.0 - probability;
-    double low = 0.0, high = 1.0;
-    while (student_p(high, degrees_of_freedom) > beyond)
-        high *= 2.0;
-    for (double middle = 0.5 * high; low < middle && middle < high; middle = 0.5 * (low + high))
-        (student_p(middle, degrees_of_freedom) > beyond ? low : high) = middle;
-    return high;
 }
 
 } // namespace listric

@@ -3,8 +3,8 @@
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/forecast/oversize.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
-#include "apps/scene/toml/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -304,7 +305,7 @@ std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
 } // namespace
 
 SweepPlan load_sweep_plan(const std::filesystem::path& file) {
-    const toml::table document = shelf.read(file);
+    const toml::table document = read_document(shelf, file);
     const Entry top{document, ""};
     SweepPlanText text = plan_table().read(top);
     SweepPlan& plan = text.plan;

@@ -2,14 +2,15 @@
 
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
-#include "apps/scene/toml/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -245,7 +246,7 @@ PlanTable<ValidationText> validation_table() {
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
-    const toml::table document = validation_shelf.read(file);
+    const toml::table document = read_document(validation_shelf, file);
     const Entry top{document, ""};
     const ValidationText text = validation_table().read(top);
     ValidationPlan plan;

@@ -1,10 +1,11 @@
 #include "apps/studies/validation/validation_report.hpp"
 
-#include "apps/support/files/json_text.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/support/statistics.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #include "apps/support/words/number.hpp"
 
+#include "apps/support/words/pattern.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <regex>
 
 namespace listric {
 
@@ -44,42 +44,39 @@ std::string without(std::string text, std::string_view letters) {
     return text;
 }
 
-bool matches(const std::string& text, const char* pattern) {
-    return std::regex_match(text, std::regex(pattern, std::regex::ECMAScript | std::regex::icase));
-}
-
 /// Meaning of a word in the place of a number.
 std::string word_objection(const std::string& text) {
-    if (matches(text, "[+-]?nan(\\(.*\\))?|#?n/?a|null|none|nil|no ?data|missing|-+|\\?+|x+"))
+    if (is_match_in_any_case(
+            text, "[+-]?nan(\\(.*\\))?|#?n/?a|null|none|nil|no ?data|missing|-+|\\?+|x+"))
         return "no value; leave out what has none";
-    if (matches(text, "[+-]?inf(inity)?"))
+    if (is_match_in_any_case(text, "[+-]?inf(inity)?"))
         return "infinity";
-    if (matches(text, "#[a-z0-9/]+[!?]|#+|err:?[0-9]*"))
+    if (is_match_in_any_case(text, "#[a-z0-9/]+[!?]|#+|err:?[0-9]*"))
         return "an error of a spreadsheet, or a column too narrow for its number";
-    if (matches(text, "\\*+"))
+    if (is_match_in_any_case(text, "\\*+"))
         return "what Fortran writes where a number does not fit its width";
-    if (matches(text, "[+-]?0x[0-9a-f.]+(p[+-]?[0-9]+)?"))
+    if (is_match_in_any_case(text, "[+-]?0x[0-9a-f.]+(p[+-]?[0-9]+)?"))
         return "hexadecimal; write decimal digits";
     return "";
 }
 
 /// Objection to digits that commas, blanks or other marks part.
 std::string marks_objection(const std::string& text) {
-    if (matches(text, "[+-]?[0-9]{1,3},[0-9]{3}"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]{1,3},[0-9]{3}"))
         return fmt::format("a decimal comma, or one between thousands; write {} or {}",
                            replaced(text, ",", "."), without(text, ","));
-    if (matches(text, "[+-]?[0-9]*,[0-9]+([ed][+-]?[0-9]+)?"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]*,[0-9]+([ed][+-]?[0-9]+)?"))
         return fmt::format("a decimal comma; write {}", replaced(text, ",", "."));
-    if (matches(text, "[+-]?[0-9]{1,3}(,[0-9]{3})+(\\.[0-9]*)?"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]{1,3}(,[0-9]{3})+(\\.[0-9]*)?"))
         return fmt::format("commas between thousands; write {}", without(text, ","));
-    if (matches(text, "[+-]?[0-9]{1,3}(\\.[0-9]{3})+,[0-9]*"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]{1,3}(\\.[0-9]{3})+,[0-9]*"))
         return fmt::format("a decimal comma, and points between thousands; write {}",
                            replaced(without(text, "."), ",", "."));
-    if (matches(text, "[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{1,4}"))
+    if (is_match_in_any_case(text, "[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{1,4}"))
         return "a date";
-    if (matches(text, "[+-]?[0-9]{1,3}(\\.[0-9]{3}){2,}"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]{1,3}(\\.[0-9]{3}){2,}"))
         return fmt::format("points between thousands; write {}", without(text, "."));
-    if (matches(text, "[+-]?[0-9]{1,3}([ '_][0-9]{3})+([.,][0-9]*)?"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]{1,3}([ '_][0-9]{3})+([.,][0-9]*)?"))
         return fmt::format("marks between thousands; write {}",
                            replaced(without(text, " '_"), ",", "."));
     return "";
@@ -125,17 +122,15 @@ std::string number_objection(std::string_view given) {
         text = replaced(text, mark, mark == "\u2019" ? "'" : " "); // as people set thousands apart
     if (std::string said = marks_objection(text); !said.empty())
         return said;
-    if (matches(text, "[+-]?[0-9]*\\.?[0-9]+[+-][0-9]{2,3}"))
+    if (is_match_in_any_case(text, "[+-]?[0-9]*\\.?[0-9]+[+-][0-9]{2,3}"))
         return "an exponent without its letter, as Fortran writes it; write e before its sign";
-    if (matches(text, "[+-]?[0-9]*\\.?[0-9]*([ed][+-]?[0-9]+)?") &&
+    if (is_match_in_any_case(text, "[+-]?[0-9]*\\.?[0-9]*([ed][+-]?[0-9]+)?") &&
         text.find_first_of("0123456789") != text.npos)
         return "too large";
-    std::smatch parts;
-    static const std::regex with_unit("([+-]?[0-9]+(?:[.,][0-9]*)?(?:[eE][+-]?[0-9]+)?) "
-                                      "*((?:[a-zA-Z%/\"']|[\xc0-\xff][\x80-\xbf]+).*)");
-    if (std::regex_match(text, parts, with_unit))
+    if (const auto parts = parts_of(text, "([+-]?[0-9]+(?:[.,][0-9]*)?(?:[eE][+-]?[0-9]+)?) "
+                                          "*((?:[a-zA-Z%/\"']|[\xc0-\xff][\x80-\xbf]+).*)"))
         return fmt::format("a number and {}; write the number alone, in the unit of the name",
-                           shown(parts[2].str()));
+                           shown((*parts)[2]));
     return "";
 }
 

@@ -1,6 +1,7 @@
 #include "apps/archive/quality.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>

@@ -73,6 +73,7 @@ TEST(Summary, WithoutFaults) {
 }
 
 TEST(Summary, WhatEffectsAdd) {
+    const nlohmann::ordered_json provenance{{"version", "0.2.0"}};
     const json all = json::parse(archive::summary_json({
         .state = empty_state(),
         .record = {},
@@ -83,7 +84,7 @@ TEST(Summary, WhatEffectsAdd) {
         .objects = {{"tide_by_moon_m", {{"io", 1.0}, {"europa", 1.5}}}},
         .lists = {{"shores", {{{"x_m", 3.0}}, {{"x_m", 4.0}}}}},
         .wall_seconds = 1.0,
-        .provenance = {{"version", "0.2.0"}},
+        .provenance = &provenance,
     }));
     EXPECT_EQ(all["provenance"]["version"], "0.2.0");
     EXPECT_EQ(all["effects"], json({"tides"}));

@@ -2,6 +2,7 @@
 
 #include "apps/commands/asked_accuracy.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/studies/sweep/student.hpp"
 #include "apps/studies/sweep/sweep_effects.hpp"
 #include "apps/support/error.hpp"
 #include "tests/message_of.hpp"

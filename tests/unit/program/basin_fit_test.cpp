@@ -7,6 +7,7 @@
 #include "dem/numbers/units.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

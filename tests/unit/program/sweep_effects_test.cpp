@@ -1,6 +1,7 @@
 // Tables of effects, and Student's distribution beside its closed forms for one and two degrees of
 // freedom and the table of Abramowitz and Stegun (26.10), which has three digits after the point.
 
+#include "apps/studies/sweep/student.hpp"
 #include "apps/studies/sweep/sweep_effects.hpp"
 #include "dem/numbers/units.hpp"
 

@@ -5,15 +5,16 @@
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml/differences.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/scene/toml/schema.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/scene/toml/template.hpp"
 #include "apps/support/files/file.hpp"
-#include "apps/support/files/json_text.hpp"
 #include "tests/message_of.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <unistd.h>

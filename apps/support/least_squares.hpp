@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// Columns of a linear model, made orthogonal one after the other, the largest that is left first:
+/// a decomposition into orthonormal columns times an upper triangle. What is left of a column that
+/// others make up is round-off; it adds nothing to the rank.
+class LeastSquares {
+public:
+    /// @param columns  of equal lengths, at least one
+    explicit LeastSquares(const std::vector<std::vector<double>>& columns);
+
+    std::size_t rank() const { return orthonormal_.size(); }
+
+    /// Sum of squares of what no combination of the columns can make up.
+    double residual(std::span<const double> values) const;
+
+    /// Weights of the values whose sum is the best estimate of a column's coefficient; none:
+    /// columns hang together so that the values do not tell it.
+    std::optional<std::vector<double>> weights(std::size_t column) const;
+
+private:
+    std::vector<std::size_t> order_;               ///< columns as they were taken
+    std::vector<std::vector<double>> orthonormal_; ///< `rank`
+    std::vector<std::vector<double>> triangle_;    ///< rows of it, by the columns' own numbers
+};
+
+double dot(std::span<const double> a, std::span<const double> b);
+
+} // namespace listric
