@@ -38,7 +38,6 @@ ModelParts make_parts(const Scene& scene) {
         if (part.effect->contribute)
             part.effect->contribute(scene, parts);
     soften(parts.materials, scene.cycle.softness);
-    soften({&parts.base.material, 1}, scene.cycle.softness);
     return parts;
 }
 

@@ -58,7 +58,7 @@ HEAVY = {
                                  "apps/studies/plan_file.hpp"},
     # These hold a value of JSON; others do with nlohmann/json_fwd.hpp.
     "nlohmann/json.hpp": {"apps/figures/picture_order.hpp", "apps/laboratory/report.hpp",
-                          "apps/laboratory/calibration_fit.hpp"},
+                          "apps/laboratory/calibration/calibration_fit.hpp"},
     "Eigen/": {f"apps/scene/svg/svg_{name}.hpp" for name in ("path", "place", "transform")},
     "unsupported/Eigen/": set(),
     "CLI/": {f"apps/commands/{name}.hpp" for name in ("command", "underlay", "asked_accuracy", "help/help")},

@@ -4,7 +4,7 @@
 #include "apps/laboratory/tests.hpp"
 #include "apps/support/words/log.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <functional>

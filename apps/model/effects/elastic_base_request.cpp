@@ -59,7 +59,7 @@ CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts
     p.mass_factor = base.mass_factor;
     p.swing_damping = base.swing_damping;
     p.damping = scene.cycle.damping;
-    p.contact_stiffness = node_stiffness(parts.base.material, parts.materials, node_spacing,
+    p.contact_stiffness = node_stiffness(scene.basement, parts.materials, node_spacing,
                                          scene.hanging_wall.mean_radius);
     p.gravity = parts.physics.gravity;
     p.wall_x = scene.hanging_wall.length;

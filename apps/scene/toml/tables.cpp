@@ -202,7 +202,8 @@ std::vector<Parameter> cycle_parameters() {
          "margin of the neighbour list, in mean radii",
          "Changes the time of a run only, which is least near the default.", between(0.15, 1)},
         {"softness", at<&P::softness>, "", between(1, 64), "",
-         "divides the stiffness of rock, sediment, layers and base; weakened rock keeps its own",
+         "divides the stiffness of rock, sediment and layers; weakened and soft rock and the base "
+         "keep theirs",
          "Raising it to 4 halves the cycles of a run; rock is then four times as compressible.",
          between(1, 16)},
     };

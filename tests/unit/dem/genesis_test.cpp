@@ -119,14 +119,15 @@ TEST(Genesis, MakesASettledBondedHangingWall) {
     EXPECT_EQ(state.materials[basement].friction, 0.05);
 }
 
-/// Rock a sixteenth as stiff loses a twentieth of its height to its weight, and rises when what
-/// stood out above the ground is cut off: it is as level and as heavy as stiff rock all the same.
+/// Rock a thirty-second as stiff loses a tenth of its height to its weight, and rises when what
+/// stands out above the ground is cut off: it is as level and as heavy as stiff rock all the same.
+/// With the room that stiff rock needs it lies some 300 m too low.
 TEST(Genesis, LevelsSoftRock) {
-    GenesisRequest r = request(500.0, 1);
-    r.materials[basement].normal_stiffness /= 16.0;
-    r.materials[basement].shear_stiffness /= 16.0;
+    GenesisRequest r = request(200.0, 1);
+    r.materials[basement].normal_stiffness /= 32.0;
+    r.materials[basement].shear_stiffness /= 32.0;
     const State state = make(r);
-    EXPECT_NEAR(mean_top(state), 0.0, 250.0);
+    EXPECT_NEAR(mean_top(state), 0.0, 150.0);
     const double rock = 2600.0 * hanging_wall_area(r.hanging_wall, r.base.surfaces[0].chain);
     EXPECT_NEAR(state.ledger.initial, rock, 1e-9 * rock);
 }
