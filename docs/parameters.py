@@ -4,6 +4,7 @@ anchor, for every table and parameter.
 """
 
 import json
+import os
 import re
 from pathlib import Path
 
@@ -24,46 +25,46 @@ default.
 
 """
 
-#: Where a table, or one of its keys, is explained.
+#: Where a table, or one of its keys, is explained: pages of docs.
 EXPLAINED = {
-    "": "run-folder.md",
+    "": "reference/run-folder.md",
     "accuracy": "theory/genesis.md#accuracy",
-    "seed": "troubleshooting.md#the-result-is-strange",
-    "materials": "choosing.md#friction-of-faults",
+    "seed": "guides/troubleshooting.md#the-result-is-strange",
+    "materials": "guides/choosing.md#friction-of-faults",
     "hanging_wall": "theory/genesis.md",
-    "hanging_wall.mean_radius_m": "choosing.md#resolution",
+    "hanging_wall.mean_radius_m": "guides/choosing.md#resolution",
     "detachment": "theory/cycle.md#detachment-and-walls",
-    "detachment.friction": "choosing.md#friction-of-the-detachment",
-    "detachment.friction_rule": "fault-weakening.md#friction-on-the-detachment",
-    "detachment.footwall_top_m": "inversion.md#ground-behind-the-breakaway",
-    "detachment.footwall_friction": "inversion.md#ground-behind-the-breakaway",
-    "stage": "inversion.md#stages",
-    "fault_weakening.shortening_mean_stress_ratio": "inversion.md#weak-rock-under-thrust",
-    "detachment.csv": "your-own-section.md",
-    "detachment.csv_delimiter": "your-own-section.md",
-    "detachment.svg": "your-own-section.md",
-    "detachment.svg_path": "your-own-section.md",
-    "detachment.svg_points": "your-own-section.md",
-    "detachment.shift_x_m": "your-own-section.md",
-    "detachment.tolerance_m": "your-own-section.md",
-    "picked_fault": "your-own-section.md",
-    "observed": "your-own-section.md",
-    "stretching": "laboratory.md#pure-shear",
+    "detachment.friction": "guides/choosing.md#friction-of-the-detachment",
+    "detachment.friction_rule": "explain/fault-weakening.md#friction-on-the-detachment",
+    "detachment.footwall_top_m": "guides/inversion.md#ground-behind-the-breakaway",
+    "detachment.footwall_friction": "guides/inversion.md#ground-behind-the-breakaway",
+    "stage": "guides/inversion.md#stages",
+    "fault_weakening.shortening_mean_stress_ratio": "guides/inversion.md#weak-rock-under-thrust",
+    "detachment.csv": "start/your-own-section.md",
+    "detachment.csv_delimiter": "start/your-own-section.md",
+    "detachment.svg": "start/your-own-section.md",
+    "detachment.svg_path": "start/your-own-section.md",
+    "detachment.svg_points": "start/your-own-section.md",
+    "detachment.shift_x_m": "start/your-own-section.md",
+    "detachment.tolerance_m": "start/your-own-section.md",
+    "picked_fault": "start/your-own-section.md",
+    "observed": "start/your-own-section.md",
+    "stretching": "guides/laboratory.md#pure-shear",
     "extension": "theory/index.md#axes-and-clocks",
-    "extension.speed_m_per_s": "choosing.md#speed",
+    "extension.speed_m_per_s": "guides/choosing.md#speed",
     "material": "theory/cycle.md#contact",
     "cycle": "theory/cycle.md#motion",
     "cycle.damping": "theory/cycle.md#damping-against-the-mean-motion",
     "cycle.averaging_time_s": "theory/cycle.md#damping-against-the-mean-motion",
     "cycle.time_step_safety": "theory/cycle.md#time-step",
     "cycle.skin": "theory/cycle.md#neighbours",
-    "output": "run-folder.md",
+    "output": "reference/run-folder.md",
     "gravity": "theory/cycle.md#motion",
     "bonds": "theory/cycle.md#bonds",
     "fault_weakening": "theory/faults.md#fault-detection-afd",
     "fault_weakening.normal_stiffness_pa": "theory/faults.md#weak-rock",
     "fault_weakening.shear_stiffness_pa": "theory/faults.md#weak-rock",
-    "fault_weakening.friction": "choosing.md#friction-of-faults",
+    "fault_weakening.friction": "guides/choosing.md#friction-of-faults",
     "fault_weakening.update_interval_a": "theory/faults.md#property-update",
     "fault_weakening.mean_stress_ratio": "theory/faults.md#property-update",
     "fault_weakening.largest_change": "theory/faults.md#property-update",
@@ -73,13 +74,13 @@ EXPLAINED = {
     "compaction": "theory/sediment.md#compaction",
     "energy": "theory/cycle.md#energy",
     "elastic_base": "theory/elastic-base.md#elastic-body",
-    "elastic_base.elastic_thickness_m": "choosing.md#elastic-thickness",
+    "elastic_base.elastic_thickness_m": "guides/choosing.md#elastic-thickness",
     "elastic_base.crust_density_kg_per_m3": "theory/elastic-base.md#isostasy",
     "elastic_base.mantle_density_kg_per_m3": "theory/elastic-base.md#isostasy",
     "elastic_base.infill_density_kg_per_m3": "theory/elastic-base.md#isostasy",
-    "elastic_base.cell_size_m": "cost-of-accuracy.md#the-elastic-base",
-    "elastic_base.update_interval_cycles": "cost-of-accuracy.md#coupling",
-    "elastic_base.modes": "cost-of-accuracy.md#coupling",
+    "elastic_base.cell_size_m": "explain/cost-of-accuracy.md#the-elastic-base",
+    "elastic_base.update_interval_cycles": "explain/cost-of-accuracy.md#coupling",
+    "elastic_base.modes": "explain/cost-of-accuracy.md#coupling",
     "elastic_base.mass_factor": "theory/elastic-base.md#coupling",
     "elastic_base.swing_damping": "theory/elastic-base.md#coupling",
     "lower_crust_thinning": "theory/elastic-base.md#lower-crust",
@@ -142,7 +143,7 @@ def facts(name, one):
     value = one["default"]
     unit = one.get("unit") or ("1" if one["type"] in ("number", "integer") else "")
     key = name.rpartition(".")[2]
-    follows = f" at {one['usual_rate_m_per_a']:g} m/a, follows [the rate](choosing.md#geological-rate)" if "usual_rate_m_per_a" in one else ""
+    follows = f" at {one['usual_rate_m_per_a']:g} m/a, follows [the rate](../guides/choosing.md#geological-rate)" if "usual_rate_m_per_a" in one else ""
     yield f"`{key}`, {value[1:-1]}" if value in ("(none)", "(required)") else f"**Default** `{key} = {value}`{follows}"
     if unit:
         yield f"**Unit** {unit}"
@@ -157,7 +158,7 @@ def facts(name, one):
     while table and name not in EXPLAINED and table not in EXPLAINED:
         table = table.rpartition(".")[0]
     to = EXPLAINED.get(name) or EXPLAINED[table]
-    yield f"[{'Theory' if to.startswith('theory') else 'More'}]({to})"
+    yield f"[{'Theory' if to.startswith('theory') else 'More'}]({os.path.relpath(to, 'reference')})"
 
 
 def page(schema):

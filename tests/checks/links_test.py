@@ -43,7 +43,7 @@ class Documents(unittest.TestCase):
     def test_ones_own_section_is_a_click_away(self):
         documents = read_documents()
         self.assertIn("docs/start/your-own-section.md", links(documents["README.md"]))
-        self.assertIn("your-own-section.md", links(documents["docs/index.md"]))
+        self.assertIn("start/your-own-section.md", links(documents["docs/index.md"]))
 
 
 if __name__ == "__main__":

@@ -193,7 +193,7 @@ class OnAPhone(Browsed):
         self.driver.get(f"file://{self.site / page / 'index.html'}")
 
     def test_no_page_is_wider_than_the_screen(self):
-        for page in (".", "theory/cycle", "theory/elastic-base", "theory/genesis", "parameters", "drawing", "validation"):
+        for page in (".", "theory/cycle", "theory/elastic-base", "theory/genesis", "reference/parameters", "start/drawing", "explain/validation"):
             self.go(page)
             self.assertEqual(self.script("return document.documentElement.scrollWidth;"), 390, page)
 
