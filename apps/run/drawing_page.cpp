@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/effect_prices.hpp"
 #include "apps/run/forecast/prediction.hpp"
+#include "apps/scene/scene_checks.hpp"
 #include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/json_text.hpp"

@@ -203,4 +203,24 @@ void check_scene(const Scene& scene, const toml::table& document, EffectList eff
             part.effect->check(scene, refuse);
 }
 
+void take_out_former_keys(toml::table& document, EffectList effects) {
+    for (const Effect* effect : effects)
+        for (const FormerKey& former : effect->former) {
+            const std::string path = fmt::format("{}.{}", effect->name, former.key);
+            const toml::node* const node = document.at_path(path).node();
+            if (!node)
+                continue;
+            const std::string word = node->value_or(std::string());
+            if (former.stays.empty())
+                fail({*node, path}, fmt::format("is no key any more, use {}", former.instead));
+            if (word != former.stays)
+                fail({*node, path},
+                     fmt::format("is no key any more{}, allowed: {}, which is done without it; "
+                                 "leave it out",
+                                 word.empty() ? "" : ", and " + quoted(word) + " is gone",
+                                 quoted(std::string(former.stays))));
+            document[effect->name].as_table()->erase(former.key);
+        }
+}
+
 } // namespace listric

@@ -18,4 +18,8 @@ void check_name(const Heading& heading, const toml::table& document,
 /// Checks of tables against each other, which no single parameter can fail. Throws SceneError.
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects);
 
+/// Takes out keys that effects had once and whose value is what is done now. Throws SceneError of
+/// others.
+void take_out_former_keys(toml::table& document, EffectList effects);
+
 } // namespace listric

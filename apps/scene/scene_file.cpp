@@ -435,26 +435,6 @@ void set_accuracy(Scene& scene) {
 
 // ------------------------------------------------------------------------------------- interface
 
-void take_out_former_keys(toml::table& document, EffectList effects) {
-    for (const Effect* effect : effects)
-        for (const FormerKey& former : effect->former) {
-            const std::string path = fmt::format("{}.{}", effect->name, former.key);
-            const toml::node* const node = document.at_path(path).node();
-            if (!node)
-                continue;
-            const std::string word = node->value_or(std::string());
-            if (former.stays.empty())
-                fail({*node, path}, fmt::format("is no key any more, use {}", former.instead));
-            if (word != former.stays)
-                fail({*node, path},
-                     fmt::format("is no key any more{}, allowed: {}, which is done without it; "
-                                 "leave it out",
-                                 word.empty() ? "" : ", and " + quoted(word) + " is gone",
-                                 quoted(std::string(former.stays))));
-            document[effect->name].as_table()->erase(former.key);
-        }
-}
-
 Scene load_scene(const SceneRequest& request, EffectList effects) {
     const fs::path path = scenes.find(request.scene);
     toml::table document = merged_document(request, path);

@@ -10,10 +10,6 @@
 
 namespace listric {
 
-/// Takes out keys that effects had once and whose value is what is done now. Throws SceneError of
-/// others.
-void take_out_former_keys(toml::table& document, EffectList effects);
-
 /// Reads, merges (default < accuracy level < scene file < set) and checks a scene with the effects
 /// that there are. Its name is the file's without folder and ending. Throws SceneError.
 Scene load_scene(const SceneRequest& request, EffectList effects);

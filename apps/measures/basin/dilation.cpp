@@ -49,9 +49,13 @@ void add_contacts(RockPacking& rock, const State& state) {
         const double overlap = length - hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]);
         if (overlap <= 0.0)
             continue;
-        for (const std::size_t disc : {i, j})
+        for (const auto& [disc, neighbour] : {std::pair(i, j), std::pair(j, i)})
             if (d.stratum[disc] == 0 && !is_soft(state.materials, d.material[disc])) {
-                rock.overlap[static_cast<std::size_t>(d.id[disc])] += overlap * length;
+                const double own = state.materials[d.material[disc]].normal_stiffness;
+                const double others = state.materials[d.material[neighbour]].normal_stiffness;
+                // Springs in series: beside soft rock the disc's own is pressed by less than half.
+                const double share = 2.0 * others / (own + others);
+                rock.overlap[static_cast<std::size_t>(d.id[disc])] += share * overlap * length;
                 rock.reach[static_cast<std::size_t>(d.id[disc])] += length * length;
             }
     }
