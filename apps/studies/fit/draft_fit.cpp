@@ -1,6 +1,6 @@
 #include "apps/studies/fit/draft_fit.hpp"
 
-#include "apps/support/least_squares.hpp"
+#include "apps/studies/least_squares.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "apps/studies/sweep/sweep_effects.hpp"
 
+#include "apps/studies/least_squares.hpp"
 #include "apps/studies/sweep/student.hpp"
-#include "apps/support/least_squares.hpp"
 
 #include <fmt/format.h>
 

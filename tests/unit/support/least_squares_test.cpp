@@ -1,4 +1,4 @@
-#include "apps/support/least_squares.hpp"
+#include "apps/studies/least_squares.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,9 @@
 
 namespace listric {
 
-/// Columns of a linear model, made orthogonal one after the other, the largest that is left first:
-/// a decomposition into orthonormal columns times an upper triangle. What is left of a column that
-/// others make up is round-off; it adds nothing to the rank.
+/// Columns of a linear model as orthonormal columns times an upper triangle, the largest that is
+/// left first: Eigen's column-pivoting QR, which is dear to compile and so is in this unit alone.
+/// What is left of a column that others make up is round-off; it adds nothing to the rank.
 class LeastSquares {
 public:
     /// @param columns  of equal lengths, at least one

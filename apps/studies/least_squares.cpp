@@ -1,9 +1,9 @@
-#include "apps/support/least_squares.hpp"
+#include "apps/studies/least_squares.hpp"
 
-#include <algorithm>
+#include <Eigen/QR>
+
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace listric {
@@ -22,36 +22,25 @@ double dot(std::span<const double> a, std::span<const double> b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-LeastSquares::LeastSquares(const std::vector<std::vector<double>>& columns)
-    : order_(columns.size()) {
+LeastSquares::LeastSquares(const std::vector<std::vector<double>>& columns) {
     assert(!columns.empty());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::vector<std::vector<double>> left = columns;
-    double round_off = 0.0;
-    for (std::size_t step = 0; step < std::min(columns.size(), columns[0].size()); ++step) {
-        const auto size = [&](std::size_t k) { return dot(left[k], left[k]); };
-        const auto next = order_.begin() + static_cast<std::ptrdiff_t>(step);
-        std::iter_swap(next, std::ranges::max_element(next, order_.end(), {}, size));
-        std::vector<double>& column = left[*next];
-        // Twice is enough: the second time takes off what round-off of the first has left.
-        std::vector<double> row(columns.size());
-        for (std::size_t k = 0; k < step; ++k)
-            take_off(column, dot(orthonormal_[k], column), orthonormal_[k]);
-        const double length = std::sqrt(dot(column, column));
-        if (step == 0)
-            round_off = length * static_cast<double>(columns.size() + columns[0].size()) *
-                        std::numeric_limits<double>::epsilon();
-        if (length <= round_off)
-            break;
-        for (double& value : column)
-            value /= length;
-        row[*next] = length;
-        for (auto other = next + 1; other != order_.end(); ++other) {
-            row[*other] = dot(column, left[*other]);
-            take_off(left[*other], row[*other], column);
-        }
-        orthonormal_.push_back(column);
-        triangle_.push_back(std::move(row));
+    const auto count = static_cast<Eigen::Index>(columns.size());
+    const auto rows = static_cast<Eigen::Index>(columns[0].size());
+    Eigen::MatrixXd matrix(rows, count);
+    for (Eigen::Index k = 0; k < count; ++k)
+        matrix.col(k) = Eigen::VectorXd::Map(columns[static_cast<std::size_t>(k)].data(), rows);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix);
+    const Eigen::Index rank = factors.rank();
+    const Eigen::MatrixXd orthonormal =
+        factors.householderQ() * Eigen::MatrixXd::Identity(rows, rank);
+    for (Eigen::Index k = 0; k < count; ++k)
+        order_.push_back(static_cast<std::size_t>(factors.colsPermutation().indices()[k]));
+    for (Eigen::Index k = 0; k < rank; ++k) {
+        const auto column = orthonormal.col(k);
+        orthonormal_.emplace_back(column.begin(), column.end());
+        triangle_.emplace_back(columns.size());
+        for (Eigen::Index other = k; other < count; ++other)
+            triangle_.back()[order_[static_cast<std::size_t>(other)]] = factors.matrixR()(k, other);
     }
 }
 
