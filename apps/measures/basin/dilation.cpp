@@ -99,14 +99,16 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
                            before.reach[id];
         }
     }
-    NamedNumbers numbers; // not finite without closed cells
     const double scale = all / closed, moved = run.extension.m * run.setting.thickness;
-    add(numbers, dilation, growth * scale);
-    add(numbers, elastic_area, elastic * scale);
-    if (!run.base.motion.shortens(just_before(run.base.motion, run.now.clock))) {
-        add(numbers, dilation_fraction, growth * scale / moved);
-        add(numbers, elastic_fraction, elastic * scale / moved);
-    }
+    NamedNumbers numbers; // not finite without closed cells
+    const bool shortens = run.base.motion.shortens(just_before(run.base.motion, run.now.clock));
+    const auto add_area = [&](const Quantity& area, const Quantity& fraction, double value) {
+        add(numbers, area, value);
+        if (!shortens)
+            add(numbers, fraction, value / moved);
+    };
+    add_area(dilation, dilation_fraction, growth * scale);
+    add_area(elastic_area, elastic_fraction, elastic * scale);
     return numbers;
 }
 

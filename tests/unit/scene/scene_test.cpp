@@ -398,7 +398,7 @@ TEST_F(SceneTest, AFormerKeyIsPassedOverWhereItSaysWhatIsDone) {
 TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
     EXPECT_EQ(error(minimal + "[cycle]\ncolour = 'red'\n"),
               "scene.toml:5: cycle.colour: unknown key, allowed: damping, averaging_time_s, "
-              "time_step_safety, inertial_mass_floor, skin");
+              "time_step_safety, inertial_mass_floor, skin, softness");
     EXPECT_THAT(
         error(minimal + "[magnetism]\n"),
         AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
