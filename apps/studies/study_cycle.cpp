@@ -29,12 +29,12 @@ namespace {
 constexpr double radius = 93.1, density = 2600.0;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Place {
+struct DiscAt {
     double x, y; ///< m
 };
 
 /// Discs of one size at rest, bonded for good to those that they touch.
-State bonded_discs(const std::vector<Place>& places, const Material& material,
+State bonded_discs(const std::vector<DiscAt>& places, const Material& material,
                    const RigidBase& base) {
     State state = empty_state();
     state.materials.assign(3, material);
@@ -85,7 +85,7 @@ struct Wave {
 /// Swings for some periods. `after_cycle` may disturb the state. Error: greatest difference from
 /// the exact displacement at the end, over the amplitude.
 StudyPoint swing(const Wave& wave, double safety, const std::function<void(State&)>& after_cycle) {
-    std::vector<Place> places;
+    std::vector<DiscAt> places;
     for (std::size_t j = 0; j < Wave::discs; ++j)
         places.push_back({wave.rest(j), 0.0});
     State state = bonded_discs(places, wave.material, {});
@@ -152,7 +152,7 @@ struct Squeeze {
     }
 
     State block(const RigidBase& b) const {
-        std::vector<Place> places;
+        std::vector<DiscAt> places;
         for (std::size_t r = 0; r < rows; ++r)
             for (std::size_t c = 0; c < columns; ++c)
                 places.push_back({radius * static_cast<double>(2 * c + r % 2),
