@@ -74,7 +74,7 @@ def draw_well(axes, well: dict, top: float) -> None:
     axes[0].set_xlim(left=0.0)
     axes[1].set_xlim(left=0.0)
     axes[0].set_ylabel("Depth below the ground (km)")
-    axes[0].set_title(f"{well['name'].capitalize()}, x {well['x_m'] * KILOMETRE:.6g} km", loc="left",
+    axes[0].set_title(f"{well['name'].capitalize()}, x {well['x_m'] * KILOMETRE:.1f} km", loc="left",
                       fontsize=10.5, weight="semibold")
     without_frame(*axes)
 
