@@ -108,9 +108,14 @@ struct LastWindow {
     std::vector<double> uplift; ///< at the loads' x, m
 };
 
+/// Throws UsageError where the run is shorter than a window.
 LastWindow last_window(const std::filesystem::path& run) {
     const State state = read_snapshot(list_snapshots(run).back()).state;
-    const coupling::ConstInterfaceMeans means = coupling::last_window_means(state).value();
+    const auto means_of_window = coupling::last_window_means(state);
+    if (!means_of_window)
+        throw UsageError(run.string() + ": ends within its first window, of which no mean load is "
+                                        "known: raise extension.distance_m to output.interval_m");
+    const coupling::ConstInterfaceMeans& means = *means_of_window;
     LastWindow result;
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {

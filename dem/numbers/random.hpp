@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/numbers/units.hpp"
 #include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <cmath>
 #include <cstdint>

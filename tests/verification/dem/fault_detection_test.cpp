@@ -107,8 +107,8 @@ struct Slab {
                     if (std::hypot(s.x[i] - x, s.y[i] - y) <= 0.5 * circle)
                         members.push_back(k);
                 });
-                const double slip =
-                    std::abs(most_active_plane(s, members, {x, y}, circle, plane_directions(12)).slip);
+                const double slip = std::abs(
+                    most_active_plane(s, members, {x, y}, circle, plane_directions(12)).slip);
                 EXPECT_LE(slip, slip_bound(s, members, {x, y}) + 1e-9);
                 largest = std::max(largest, slip);
             }
