@@ -3,7 +3,7 @@
 #include "apps/scene/toml/schema_parts.hpp"
 #include "apps/scene/toml/toml.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>

@@ -95,7 +95,7 @@ struct StudyRun {
 std::vector<StudyRun> runs_along(std::string_view name, std::string_view parameter,
                                  const std::vector<double>& values,
                                  const std::vector<std::string>& set = {},
-                                 std::optional<std::string> accuracy = "draft");
+                                 const std::optional<std::string>& accuracy = "draft");
 
 /// Where the run by one seed is.
 std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,

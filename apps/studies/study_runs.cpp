@@ -126,7 +126,7 @@ Scene scene_of(const StudyRequest& request) {
 std::vector<StudyRun> runs_along(std::string_view name, std::string_view parameter,
                                  const std::vector<double>& values,
                                  const std::vector<std::string>& set,
-                                 std::optional<std::string> accuracy) {
+                                 const std::optional<std::string>& accuracy) {
     std::vector<StudyRun> runs;
     for (const double value : values) {
         runs.push_back({fmt::format("{}={:g}", name, value), set, accuracy});

@@ -296,9 +296,9 @@ State make_hanging_wall(const GenesisRequest& request,
     const HangingWallParameters& p = request.hanging_wall;
     const auto [smallest, largest] = radius_range(p.mean_radius, p.radius_ratio);
 
-    // Gravity and trimming take some height; the lid leaves it.
-    const double lid =
-        std::max(0.02 * p.thickness, 1.5 * elastic_settlement(request)) + 4.0 * p.mean_radius;
+    // Gravity and trimming take some height; the lid leaves it. Rock may be softer than any.
+    const double settles = std::min(1.5 * elastic_settlement(request), 0.3 * p.thickness);
+    const double lid = std::max(0.02 * p.thickness, settles) + 4.0 * p.mean_radius;
     RigidBase closed = request.base;
     closed.motion = {};
     for (Surface& s : closed.surfaces)

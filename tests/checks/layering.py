@@ -57,7 +57,7 @@ HEAVY = {
     "apps/scene/toml/toml.hpp": {"apps/scene/toml/document.hpp", "apps/scene/scene_checks.hpp",
                                  "apps/studies/plan_file.hpp"},
     # These hold a value of JSON; others do with nlohmann/json_fwd.hpp.
-    "nlohmann/json.hpp": {"apps/figures/picture_order.hpp", "apps/laboratory/report.hpp",
+    "nlohmann/json.hpp": {"apps/figures/picture_order.hpp", "apps/laboratory/report.hpp", "apps/studies/plan_file.hpp",
                           "apps/laboratory/calibration/calibration_fit.hpp"},
     "Eigen/": {f"apps/scene/svg/svg_{name}.hpp" for name in ("path", "place", "transform")},
     "unsupported/Eigen/": set(),

@@ -123,7 +123,7 @@ Answer answer_to(const CLI::App& call, const CLI::Option& option) {
 }
 
 /// A word of the program with its purpose, as fish shows them.
-std::string described(const std::string& word, std::string purpose) {
+std::string described(const std::string& word, const std::string& purpose) {
     return fmt::format("{}\t{}", word, purpose.substr(0, purpose.find('\n')));
 }
 
