@@ -67,14 +67,13 @@ std::string stiffest(const Scene& scene) {
     return fmt::format("{}", fmt::join(names, " and "));
 }
 
-/// Cycles of another softness.
+/// What another softness would make of the cycles.
 std::string explain_softness(const Scene& scene, const Prediction& p) {
     const double softness = scene.cycle.softness;
     return softness == 1.0
-               ? fmt::format("  cycle.softness = 4 would take {:.3g} million\n", p.cycles / 2e6)
-               : fmt::format(
-                     "  softness {:g}: with stiffness as stated they would be {:.3g} million\n",
-                     softness, p.cycles * std::sqrt(softness) / 1e6);
+               ? fmt::format("  with cycle.softness = 4 {:.3g} million cycles\n", p.cycles / 2e6)
+               : fmt::format("  with cycle.softness = 1 {:.3g} million cycles\n",
+                             p.cycles * std::sqrt(softness) / 1e6);
 }
 
 std::string explain_size(const Scene& scene, const Prediction& p) {

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace listric {
@@ -30,6 +29,7 @@ private:
     std::vector<std::vector<double>> triangle_;    ///< rows of it, by the columns' own numbers
 };
 
+/// Sum of the products of two rows of equal lengths.
 double dot(std::span<const double> a, std::span<const double> b);
 
 } // namespace listric

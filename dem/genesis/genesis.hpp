@@ -23,10 +23,10 @@ struct HangingWallParameters {
     double rock_density = 2600.0; ///< bulk density of the packing, kg/m^3
 };
 
-/// Share of its height that rock between fixed sides loses under a weight, Pa; also the mean
-/// overlap of its discs over their radius. A packing's modulus of confined compression is some 0.6
-/// of a contact's stiffness: overlaps of 0.72 % at the floor of 15 km of the shipped rock, 2.8 %
-/// with a quarter of its stiffness.
+/// Share of its height that rock between fixed sides loses under a weight per area, Pa; also the
+/// mean overlap of its discs over their radius. A packing's modulus of confined compression is some
+/// 0.6 of a contact's stiffness: overlaps of 0.72 % at the floor of 15 km of the shipped rock, 2.8
+/// % with a quarter of its stiffness.
 double compression_at_depth(const Material& rock, double weight);
 
 /// Area between surface, detachment and right wall, m^2.

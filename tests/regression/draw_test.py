@@ -410,7 +410,7 @@ class Draw(Browsed):
         other = self.folder / "other.toml"
         other.write_text("[hanging_wall]\nlength_m = 30000.0\nthickness_m = 9000.0\nradius_ratio = 1.5\n[detachment]\nstart_dip_deg = 70.0\n"
                          f"segments = [{{arc = {{radius_m = {9000 / (1 - math.cos(math.radians(70)))}}}}}]\n[extension]\ndistance_m = 6000.0\n"
-                         "rate_m_per_a = 0.003\nspeed_m_per_s = 2.0\n[cycle]\ninertial_mass_floor = 0.0\n[output]\ninterval_m = 250.0\n"
+                         "rate_m_per_a = 0.003\nspeed_m_per_s = 2.0\n[cycle]\ninertial_mass_floor = 0.0\nsoftness = 4.0\n[output]\ninterval_m = 250.0\n"
                          "figures_at_m = [1000.0, 3000.0, 6000.0]\n[gravity]\n[bonds]\n[fault_weakening]\ninterval_a = 2500.0\n"
                          "update_interval_a = 900.0\n[bond_healing]\n[pore_fluid]\nhydrostatic = true\n[sedimentation]\ninterval_a = 12000.0\nnormal_stiffness_pa = 9e11\n[compaction]\n")
         staged = self.folder / "staged.toml"

@@ -99,7 +99,8 @@ function stableTimeStep(facts, schema, document) {
     .map(table => of(`${table}.grain_density_kg_per_m3`) * (1 - of(`${table}.surface_porosity`)));
   const floor = of("cycle.inertial_mass_floor"), lightest = Math.min(rock, ...sediments) / rock * smallest * smallest;
   const inertia = (floor > 0 ? floor : lightest) * mass;
-  return Math.min(...rocks.map(table => {
+  // Weakened rock keeps its stiffness, but is never the stiffest.
+  return Math.sqrt(of("cycle.softness")) * Math.min(...rocks.map(table => {
     const normal = 0.5 * of(`${table}.normal_stiffness_pa`), shear = 0.5 * of(`${table}.shear_stiffness_pa`);
     const stiffness = Math.max(3 * (normal + shear), 12 * shear);
     return of("cycle.time_step_safety") * Math.sqrt(2 * inertia / (stiffness * (1 + of("cycle.damping"))));

@@ -26,14 +26,12 @@ constexpr Quantity dilation_fraction{"rock_dilation_fraction", "1",
 
 constexpr Quantity elastic_area{
     "elastic_area_m2", "m2", "elastic part of rock's dilation",
-    "part of `rock_dilation_m2` that is elastic: what the pre-rift discs that are sound then and "
-    "now "
-    "are less compressed by their contacts than at the start. It grows with `cycle.softness`"};
-constexpr Quantity elastic_fraction{elastic_area_fraction, "1",
-                                    "elastic part over extension × thickness",
-                                    "`elastic_area_m2` over extension × thickness: `area_balance` "
-                                    "plus this is judged, so that stiff "
-                                    "and soft discs are compared alike"};
+    "part of `rock_dilation_m2` that is elastic: area that sound pre-rift discs regain as their "
+    "contacts press less than at the start. It grows with `cycle.softness`"};
+constexpr Quantity elastic_fraction{
+    elastic_area_fraction, "1", "elastic part over extension × thickness",
+    "`elastic_area_m2` over extension × thickness. *Is my run good?* judges `area_balance` plus "
+    "this, so that stiff and soft discs are compared alike"};
 
 /// Fills in what presses the pre-rift discs, but soft and weakened ones: those are enlarged to keep
 /// their volume.
