@@ -121,13 +121,31 @@ AccuracyChoice with_seeds(AccuracyChoice choice, int seeds) {
 }
 
 std::string name_of(const AccuracyChoice& choice) {
-    return fmt::format("{}, {:g} m/s, {} seed{}: {}", choice.level, choice.speed, choice.seeds,
+    return fmt::format("{}, {:g} m/s, softness {:g}, {} seed{}: {}", choice.level,
+                       choice.pace.speed, choice.pace.softness, choice.seeds,
                        choice.seeds == 1 ? "" : "s", duration(choice.seconds));
 }
 
-SceneRequest request_of(SceneRequest request, const std::string& level, double speed) {
-    request.accuracy = level;
-    request.set.push_back(fmt::format("extension.speed_m_per_s={:g}", speed));
+const AccuracyLevel& level_of(std::string_view name) {
+    return *std::ranges::find(accuracy_levels(), name, &AccuracyLevel::name);
+}
+
+/// Changes of a scene at the choice's level that make its runs as the choice's.
+std::vector<std::string> changes_of(const AccuracyChoice& choice) {
+    std::vector<std::string> changes{
+        fmt::format("extension.speed_m_per_s={:g}", choice.pace.speed)};
+    const AccuracyLevel& level = level_of(choice.level);
+    if (choice.pace.ramp != level.ramp)
+        changes.push_back(fmt::format("extension.ramp_s={:g}", choice.pace.ramp));
+    if (choice.pace.softness != level.softness)
+        changes.push_back(fmt::format("cycle.softness={:g}", choice.pace.softness));
+    return changes;
+}
+
+SceneRequest request_of(SceneRequest request, const AccuracyChoice& choice) {
+    request.accuracy = choice.level;
+    for (const std::string& change : changes_of(choice))
+        request.set.push_back(change);
     return request;
 }
 
@@ -149,7 +167,8 @@ std::string call_of(const AccuracyChoice& choice, const SceneRequest& request) {
         call += fmt::format(" --without {}", shell_word(table));
     for (const std::string& change : request.set)
         call += fmt::format(" --set {}", shell_word(change));
-    call += fmt::format(" --set extension.speed_m_per_s={:g}", choice.speed);
+    for (const std::string& change : changes_of(choice))
+        call += fmt::format(" --set {}", change);
     return request.seed ? fmt::format("{} --seed {}", call, *request.seed) : call;
 }
 
@@ -276,8 +295,8 @@ AccuracyChoice answer_to(const AskedAccuracy& asked, std::span<const AccuracyCho
     if (!cheapest) {
         std::string text = "what is recorded stays short of it:\n";
         for (const AccuracyChoice& choice : choices)
-            text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level, choice.speed,
-                                most_seeds, missed(choice, targets));
+            text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level,
+                                choice.pace.speed, most_seeds, missed(choice, targets));
         throw NoAnswer(text);
     }
     if (time > 0.0 && cheapest->seconds > time)
@@ -291,8 +310,8 @@ void refuse_level(const SceneRequest& request) {
                                      "one of them out",
                                      *request.accuracy));
     for (const std::string& change : request.set)
-        for (const std::string_view chosen :
-             {"extension.speed_m_per_s", "hanging_wall.mean_radius_m"})
+        for (const std::string_view chosen : {"extension.speed_m_per_s", "extension.ramp_s",
+                                              "cycle.softness", "hanging_wall.mean_radius_m"})
             if (change.substr(0, change.find('=')) == chosen)
                 throw UsageError(fmt::format("--set {}: --within and --error choose {}; leave one "
                                              "of them out",
@@ -384,19 +403,17 @@ std::vector<AccuracyChoice> recorded_choices(std::span<const RecordedRun> runs,
     std::vector<AccuracyChoice> choices;
     const std::string name = scene_name(request);
     for (const std::string_view level_name : levels_asked) {
-        const AccuracyLevel& level =
-            *std::ranges::find(accuracy_levels(), level_name, &AccuracyLevel::name);
-        std::vector<double> speeds;
+        const AccuracyLevel& level = level_of(level_name);
+        std::vector<archive::Pace> paces;
         for (const RecordedRun& run : runs)
             if (run.scene == name && std::abs(run.mean_radius / level.mean_radius - 1.0) < 1e-3 &&
-                std::ranges::count(speeds, run.speed) == 0)
-                speeds.push_back(run.speed);
-        for (const double speed : speeds) {
-            const Scene scene = load_scene(request_of(request, std::string(level_name), speed));
-            AccuracyChoice choice{.level = std::string(level_name),
-                                  .speed = speed,
-                                  .errors =
-                                      archive::known_errors(runs, archive::error_question(scene))};
+                std::ranges::none_of(paces,
+                                     [&](const auto& pace) { return are_near(pace, run.pace); }))
+                paces.push_back(run.pace);
+        for (const archive::Pace& pace : paces) {
+            AccuracyChoice choice{.level = std::string(level_name), .pace = pace};
+            const Scene scene = load_scene(request_of(request, choice));
+            choice.errors = archive::known_errors(runs, archive::error_question(scene));
             if (std::ranges::all_of(choice.errors,
                                     [](const KnownError& error) { return error.mean == 0.0; }))
                 continue;
@@ -431,7 +448,7 @@ std::optional<AccuracyChoice> best_choice(std::span<const AccuracyChoice> choice
             return promised_error(error, 1).has_value();
         });
         return std::tuple(std::ranges::find(levels_asked, choice.level) - std::begin(levels_asked),
-                          promises, -choice.speed);
+                          promises, -choice.pace.speed * std::sqrt(choice.pace.softness));
     };
     const AccuracyChoice* best = nullptr;
     for (const AccuracyChoice& choice : choices)
@@ -473,7 +490,7 @@ std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int t
         text += fmt::format("; this run is one of them: {} --seed N -o DIR makes the others",
                             call_of(choice, others));
     }
-    request = request_of(std::move(request), choice.level, choice.speed);
+    request = request_of(std::move(request), choice);
     return text;
 } catch (const NoAnswer& none) {
     throw UsageError(fmt::format("{}: nothing recorded supports an answer: {}", asked_text(asked),

@@ -43,7 +43,7 @@ std::vector<ErrorTarget> parse_error_targets(const std::string& text);
 /// A way to make a scene's runs that has been recorded.
 struct AccuracyChoice {
     std::string level;
-    double speed = 0.0; ///< of extension, m/s
+    archive::Pace pace;
     int seeds = 1;
     double seconds = 0.0; ///< predicted, of all seeds
     std::vector<archive::KnownError> errors = {};

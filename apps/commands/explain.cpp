@@ -139,8 +139,7 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
         "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
-        other.hanging_wall.mean_radius = level.mean_radius;
-        other.extension.speed = level.speed;
+        set_level(other, level);
         const Prediction q = predict(other, speed);
         text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12.0f} {:>9}{}\n", level.name,
                             level.mean_radius, q.discs_at_start, q.cycles, duration(q.seconds),

@@ -112,6 +112,7 @@ Polyline even(const Polyline& raw, double spacing) {
 }
 
 std::vector<Polyline> without_kinks(const Polyline& points) {
+    const double sharpest = dem::cosine(40.0 * pi / 180.0);
     std::vector<Polyline> pieces;
     std::size_t begin = 0;
     const auto turn = [&](std::size_t k) {
@@ -121,8 +122,7 @@ std::vector<Polyline> without_kinks(const Polyline& points) {
         return dot(unit(points[k] - points[k - reach]), unit(points[k + reach] - points[k]));
     };
     for (std::size_t k = 1; k + 1 < points.size(); ++k)
-        if (turn(k) < dem::cosine(40.0 * pi / 180.0) && turn(k) <= turn(k - 1) &&
-            turn(k) < turn(k + 1)) {
+        if (turn(k) < sharpest && turn(k) <= turn(k - 1) && turn(k) < turn(k + 1)) {
             pieces.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(begin),
                                 points.begin() + static_cast<std::ptrdiff_t>(k) + 1);
             begin = k;

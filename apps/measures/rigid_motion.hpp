@@ -31,19 +31,20 @@ public:
             cosine += ax * bx + ay * by;
         }
         angle_ = dem::arc_tangent(sine, cosine);
+        sine_ = dem::sine(angle_);
+        cosine_ = dem::cosine(angle_);
     }
 
     double angle() const { return angle_; } ///< rad, counter-clockwise
     dem::Point move(dem::Point p) const {
         const double x = p.x - from_.x, y = p.y - from_.y;
-        return {to_.x + dem::cosine(angle_) * x - dem::sine(angle_) * y,
-                to_.y + dem::sine(angle_) * x + dem::cosine(angle_) * y};
+        return {to_.x + cosine_ * x - sine_ * y, to_.y + sine_ * x + cosine_ * y};
     }
 
 private:
     std::vector<std::pair<dem::Point, dem::Point>> pairs_;
     dem::Point from_, to_;
-    double angle_ = 0.0;
+    double angle_ = 0.0, sine_ = 0.0, cosine_ = 1.0;
 };
 
 } // namespace listric::measures

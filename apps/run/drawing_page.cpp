@@ -262,8 +262,11 @@ Json levels_json() {
     Json levels = Json::array();
     for (const AccuracyLevel& level : accuracy_levels())
         levels.push_back({{"name", level.name},
-                          {"mean_radius_m", level.mean_radius},
-                          {"speed_m_per_s", level.speed}});
+                          {"defaults",
+                           {{"hanging_wall.mean_radius_m", level.mean_radius},
+                            {"extension.speed_m_per_s", level.speed},
+                            {"extension.ramp_s", level.ramp},
+                            {"cycle.softness", level.softness}}}});
     return levels;
 }
 

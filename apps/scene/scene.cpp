@@ -1,5 +1,6 @@
 #include "apps/scene/scene.hpp"
 
+#include "apps/scene/parameters/accuracy.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,13 @@ bool is_drawn_at(const Scene& scene, double extension) {
     return std::ranges::any_of(scene.output.figures, [&](double mark) {
         return std::abs(mark - extension) <= 0.5 * scene.output.interval;
     });
+}
+
+void set_level(Scene& scene, const AccuracyLevel& level) {
+    scene.hanging_wall.mean_radius = level.mean_radius;
+    scene.extension.speed = level.speed;
+    scene.extension.ramp = level.ramp;
+    scene.cycle.softness = level.softness;
 }
 
 Motion make_motion(const Scene& scene) {

@@ -19,6 +19,7 @@
 
 namespace listric {
 
+struct AccuracyLevel;
 struct Effect;
 
 /// Motion of base and right wall.
@@ -95,6 +96,9 @@ private:
         return nullptr;
     }
 };
+
+/// Gives a scene the level's resolution, speed and softness; its effects keep theirs.
+void set_level(Scene& scene, const AccuracyLevel& level);
 
 /// Whether a scene wants pictures at this extension (m), to half a window.
 bool is_drawn_at(const Scene& scene, double extension);

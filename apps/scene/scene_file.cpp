@@ -424,8 +424,7 @@ std::vector<std::string> warnings_of_never(const Scene& scene) {
 void set_accuracy(Scene& scene) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
-    scene.hanging_wall.mean_radius = level.mean_radius;
-    scene.extension.speed = level.speed;
+    set_level(scene, level);
     for (const EffectPart& part : scene.effects)
         if (part.effect->scale)
             part.effect->scale(scene, level);

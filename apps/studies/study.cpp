@@ -65,9 +65,10 @@ std::string objection_to_options(const Study& study, const StudyRequest& request
 } // namespace
 
 std::span<const Study> studies() {
-    static constexpr std::array<Study, 7> all{{
+    static constexpr std::array<Study, 8> all{{
         {"resolution", "lis1 with 3,000 to 67,000 discs", study_resolution, true},
         {"speed", "boundary speed: how slow is quasi-static", study_speed, true},
+        {"softness", "softer discs and a faster wall: fewer cycles", study_softness, true},
         {"time-step", "time step and density scaling: wave, lattice, lis1", study_time_step},
         {"footwall", "elements, refinement and solvers of the elastic base", study_footwall, true,
          false, 1},

@@ -64,6 +64,9 @@ void run_study(StudyRequest request);
 StudyResult study_resolution(const StudyRequest& request);
 StudyResult study_speed(const StudyRequest& request);
 
+/// Softer discs, at the level's speed and at 2 and 3 m/s: what they save and what they change.
+StudyResult study_softness(const StudyRequest& request);
+
 // Studies of the cycle.
 StudyResult study_time_step(const StudyRequest& request);
 StudyResult study_precision(const StudyRequest& request);

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace listric {
 
@@ -156,7 +157,7 @@ std::optional<archive::RecordedRun> recorded(const StudyRequest& request, const 
         .made_by =
             fmt::format("{}+{}", text_at(provenance, "version"), text_at(provenance, "commit")),
         .mean_radius = scene.hanging_wall.mean_radius,
-        .speed = scene.extension.speed,
+        .pace = archive::pace_of(scene),
         .extension = scene.extension.distance,
         .seed = static_cast<int>(made.seed),
         .measures = {}};
@@ -344,6 +345,34 @@ StudyResult study_speed(const StudyRequest& asked) {
     sweep_runs(request, request.scene,
                runs_along("speed_m_per_s", "extension.speed_m_per_s", speeds),
                basin_quantities(scene), result);
+    return result;
+}
+
+StudyResult study_softness(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1");
+    const Scene scene = scene_of(request);
+    const Values softnesses = falling(request, {16.0, 8.0, 4.0, 2.0, 1.0});
+    std::vector<StudyQuantity> quantities = basin_quantities(scene);
+    quantities.push_back(
+        {measures::name_of<&measures::Measures::broken, &measures::BrokenRock::width>(), 0.0});
+    quantities.push_back({measures::name_of<&measures::Measures::still_ground>(), 1.0, true});
+    const std::vector<StudyRun> reference =
+        runs_along("softness", "cycle.softness", {softnesses.back()});
+    StudyResult result;
+    result.title = fmt::format("Softness and speed: {} at draft against softness {:g}",
+                               request.scene, softnesses.back());
+    // The faster the wall, the slower its start.
+    for (const auto& [method, prefix, set] :
+         {std::tuple{"speed of draft", "softness", ""},
+          std::tuple{"2 m/s, slow start", "2-m-per-s-softness",
+                     "extension.speed_m_per_s=2 extension.ramp_s=600"},
+          std::tuple{"3 m/s, slow start", "3-m-per-s-softness",
+                     "extension.speed_m_per_s=3 extension.ramp_s=800"}}) {
+        std::vector<StudyRun> runs = runs_along(prefix, "cycle.softness", softnesses, words(set));
+        if (runs.back().parameter != reference[0].parameter)
+            runs.push_back(reference[0]);
+        sweep_runs(request, fmt::format("{}, {}", request.scene, method), runs, quantities, result);
+    }
     return result;
 }
 

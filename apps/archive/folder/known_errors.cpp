@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace listric::archive {
 
@@ -23,13 +24,20 @@ constexpr const char* unknown = "unknown";
 
 bool is_near(double one, double other) { return std::abs(one - other) <= 1e-3 * std::abs(other); }
 
-/// Values of one measure at one resolution and speed.
+/// Values of one measure at one resolution, speed and softness.
 struct Group {
-    double mean_radius = 0.0, speed = 0.0;
+    double mean_radius = 0.0;
+    Pace pace = {};
     std::vector<double> values = {};
     std::set<std::string> records = {};
 
     double mean() const { return spread(values).mean; }
+    /// A run's cycles go with its reciprocal.
+    double quickness() const { return pace.speed * std::sqrt(pace.softness); }
+    /// Neither faster nor softer.
+    bool is_within(const Pace& most) const {
+        return pace.speed < 1.001 * most.speed && pace.softness < 1.001 * most.softness;
+    }
     std::string record() const { return fmt::format("{}", fmt::join(records, ", ")); }
     int runs() const { return static_cast<int>(values.size()); }
 };
@@ -43,10 +51,10 @@ std::vector<Group> groups_of(std::span<const RecordedRun> runs, const ErrorQuest
             value == run.measures.end())
             continue;
         auto group = std::ranges::find_if(groups, [&](const Group& g) {
-            return is_near(run.mean_radius, g.mean_radius) && is_near(run.speed, g.speed);
+            return is_near(run.mean_radius, g.mean_radius) && are_near(run.pace, g.pace);
         });
         if (group == groups.end())
-            group = groups.insert(group, {run.mean_radius, run.speed});
+            group = groups.insert(group, {run.mean_radius, run.pace});
         group->values.push_back(value->second);
         group->records.insert(run.record);
     }
@@ -75,23 +83,29 @@ std::optional<ErrorPart> error_of_speed(const std::vector<Group>& groups,
         return best(
             groups,
             [&](const Group& g) {
-                return is_near(g.mean_radius, at.mean_radius) && g.speed < 0.999 * question.speed;
+                return is_near(g.mean_radius, at.mean_radius) && g.is_within(question.pace) &&
+                       !are_near(g.pace, question.pace);
             },
-            [](const Group& g) { return g.speed; });
+            [](const Group& g) { return g.quickness(); });
     };
     const Group* const level = best(
         groups,
         [&](const Group& g) {
             return g.mean_radius > 0.999 * question.mean_radius &&
-                   g.speed > 0.999 * question.speed && slowest_at(g);
+                   g.pace.speed > 0.999 * question.pace.speed &&
+                   g.pace.softness > 0.999 * question.pace.softness && slowest_at(g);
         },
-        [](const Group& g) { return std::pair(g.mean_radius, g.speed); });
+        [](const Group& g) { return std::pair(g.mean_radius, g.quickness()); });
     if (!level)
         return std::nullopt;
     const Group& slowest = *slowest_at(*level);
+    const std::string softness = is_near(level->pace.softness, slowest.pace.softness)
+                                     ? ""
+                                     : fmt::format("softness {:.4g} against {:.4g}, ",
+                                                   level->pace.softness, slowest.pace.softness);
     return difference(*level, slowest,
-                      fmt::format("{:.4g} against {:.4g} m/s, mean radius {:.4g} m", level->speed,
-                                  slowest.speed, level->mean_radius));
+                      fmt::format("{}{:.4g} against {:.4g} m/s, mean radius {:.4g} m", softness,
+                                  level->pace.speed, slowest.pace.speed, level->mean_radius));
 }
 
 KnownError known_error(std::span<const RecordedRun> runs, const ErrorQuestion& question,
@@ -102,7 +116,7 @@ KnownError known_error(std::span<const RecordedRun> runs, const ErrorQuestion& q
     const Group* const level = best(
         groups,
         [&](const Group& g) {
-            return is_near(g.mean_radius, question.mean_radius) && is_near(g.speed, question.speed);
+            return is_near(g.mean_radius, question.mean_radius) && are_near(g.pace, question.pace);
         },
         [](const Group&) { return 0; });
     if (!level)
@@ -114,7 +128,8 @@ KnownError known_error(std::span<const RecordedRun> runs, const ErrorQuestion& q
     const Group* const finest = best(
         groups, [&](const Group& g) { return g.mean_radius < 0.999 * question.mean_radius; },
         [&](const Group& g) {
-            return std::pair(g.mean_radius, std::abs(g.speed - question.speed));
+            return std::tuple(g.mean_radius, std::abs(g.pace.softness - question.pace.softness),
+                              std::abs(g.pace.speed - question.pace.speed));
         });
     if (finest)
         known.resolution =
@@ -124,8 +139,13 @@ KnownError known_error(std::span<const RecordedRun> runs, const ErrorQuestion& q
 
 /// Parameters by which a record does not tell scenes apart: levels of accuracy set them, or records
 /// name them.
-constexpr std::string_view left_open[] = {"seed", "accuracy", "hanging_wall.mean_radius_m",
-                                          "extension.speed_m_per_s", "extension.distance_m"};
+constexpr std::string_view left_open[] = {"seed",
+                                          "accuracy",
+                                          "hanging_wall.mean_radius_m",
+                                          "extension.speed_m_per_s",
+                                          "extension.ramp_s",
+                                          "cycle.softness",
+                                          "extension.distance_m"};
 
 std::map<std::string, std::string> compared_values(const Scene& scene) {
     std::map<std::string, std::string> values = scene_values(to_toml(scene));
@@ -138,7 +158,8 @@ std::map<std::string, std::string> compared_values(const Scene& scene) {
 
 const Quantity known_errors_quantity{
     "known_errors", "", "errors by recorded runs",
-    "errors of twelve headline measures at the run's resolution and speed, by recorded runs"};
+    "errors of twelve headline measures at the run's resolution, speed and softness, by recorded "
+    "runs"};
 
 std::span<const Quantity> error_fields() {
     static constexpr Quantity fields[] = {
@@ -150,8 +171,9 @@ std::span<const Quantity> error_fields() {
          "the runs that it is compared with"},
         {"resolution_record", "", "resolution, source", "source of these numbers"},
         {"speed", "", "of speed",
-         "mean at the speed less that at the slowest recorded; from coarser or faster runs where "
-         "there are none at this level"},
+         "mean at the speed and softness less that of the slowest recorded with the stiffest "
+         "discs; "
+         "from coarser, faster or softer runs where there are none at this level"},
         {"speed_against", "", "speed, compared with", "the runs that it is compared with"},
         {"speed_record", "", "speed, source", "source of these numbers"},
         {"spread", "", "between seeds", "standard deviation between seeds"},
@@ -168,9 +190,17 @@ std::vector<KnownError> known_errors(std::span<const RecordedRun> runs,
     return all;
 }
 
+Pace pace_of(const Scene& scene) {
+    return {scene.extension.speed, scene.extension.ramp, scene.cycle.softness};
+}
+
+bool are_near(const Pace& one, const Pace& other) {
+    return is_near(one.speed, other.speed) && is_near(one.ramp, other.ramp) &&
+           is_near(one.softness, other.softness);
+}
+
 ErrorQuestion error_question(const Scene& scene) {
-    return {scene.name, scene.hanging_wall.mean_radius, scene.extension.speed,
-            scene.extension.distance};
+    return {scene.name, scene.hanging_wall.mean_radius, pace_of(scene), scene.extension.distance};
 }
 
 std::string departs_from_record(const Scene& scene) {

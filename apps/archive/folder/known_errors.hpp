@@ -22,23 +22,30 @@ struct ErrorPart {
     std::string against;      ///< "mean radius 18.62 m": what the runs are compared with
 };
 
-/// Errors of a measure at one resolution and speed by recorded runs; none: unknown.
+/// Errors of a measure at one resolution, speed and softness by recorded runs; none: unknown.
 struct KnownError {
     std::string key;                     ///< of the measure in summary.json
     std::optional<ErrorPart> resolution; ///< mean less that of the finest runs
-    /// Mean less that of the slowest runs; at the level's resolution or, where that has none, at
-    /// the nearest coarser one, and at its speed or the nearest greater one.
+    /// Mean less that of the runs that are pulled slowest, of the stiffest discs; at the level's
+    /// resolution or, where that has none, at the nearest coarser one, and at its speed and
+    /// softness or the nearest greater ones.
     std::optional<ErrorPart> speed;
     std::optional<ErrorPart> spread; ///< standard deviation between seeds
     double mean = 0.0;               ///< of the level's runs; 0: there is none
 };
 
+/// The pace of a scene's runs.
+Pace pace_of(const Scene& scene);
+
+/// Whether they are the same, to a thousandth.
+bool are_near(const Pace& one, const Pace& other);
+
 /// Runs that a question on errors is about.
 struct ErrorQuestion {
     std::string scene;        ///< name of a shipped scene
     double mean_radius = 0.0; ///< m
-    double speed = 0.0;       ///< m/s
-    double extension = 0.0;   ///< m
+    Pace pace;
+    double extension = 0.0; ///< m
 };
 
 /// Errors of the headline measures, in their order.
@@ -46,8 +53,8 @@ std::vector<KnownError> known_errors(std::span<const RecordedRun> runs,
                                      const ErrorQuestion& question);
 
 /// The parameter in which a scene differs from the shipped one of its name, besides seed, level,
-/// resolution, speed, extension and pictures: its errors are not those of the record. Empty: in
-/// none. A scene without a shipped one of its name differs in its name.
+/// resolution, speed, softness, extension and pictures: its errors are not those of the record.
+/// Empty: in none. A scene without a shipped one of its name differs in its name.
 std::string departs_from_record(const Scene& scene);
 
 /// The question that a scene puts.

@@ -29,11 +29,14 @@ constexpr WordColumn word_columns[] = {{"record", &RecordedRun::record},
 
 struct NumberColumn {
     std::string_view name;
-    double RecordedRun::*number;
+    double& (*number)(RecordedRun& run);
 };
-constexpr NumberColumn number_columns[] = {{"mean_radius_m", &RecordedRun::mean_radius},
-                                           {"speed_m_per_s", &RecordedRun::speed},
-                                           {"extension_m", &RecordedRun::extension}};
+constexpr NumberColumn number_columns[] = {
+    {"mean_radius_m", [](RecordedRun& run) -> double& { return run.mean_radius; }},
+    {"speed_m_per_s", [](RecordedRun& run) -> double& { return run.pace.speed; }},
+    {"ramp_s", [](RecordedRun& run) -> double& { return run.pace.ramp; }},
+    {"softness", [](RecordedRun& run) -> double& { return run.pace.softness; }},
+    {"extension_m", [](RecordedRun& run) -> double& { return run.extension; }}};
 
 /// Puts a cell where its column's name says.
 void take_cell(RecordedRun& run, const std::string& column, const std::string& cell) {
@@ -50,7 +53,7 @@ void take_cell(RecordedRun& run, const std::string& column, const std::string& c
     if (!value)
         throw SceneError(fmt::format("{}: {}", column, no_number(cell)));
     if (number != std::end(number_columns))
-        run.*number->number = *value;
+        number->number(run) = *value;
     else if (column == "seed")
         run.seed = static_cast<int>(std::clamp(*value, -2e9, 2e9));
     else
@@ -139,11 +142,11 @@ void write_run_records(const fs::path& file, std::span<const RecordedRun> runs) 
     for (const HeadlineMeasure& measure : headline_measures())
         text += "," + measure.key;
     text += '\n';
-    for (const RecordedRun& run : runs) {
+    for (RecordedRun run : runs) {
         for (const WordColumn& column : word_columns)
             text += csv_cell(run.*column.word) + ",";
         for (const NumberColumn& column : number_columns)
-            text += fmt::format("{:.6g},", run.*column.number);
+            text += fmt::format("{:.6g},", column.number(run));
         text += std::to_string(run.seed);
         for (const HeadlineMeasure& measure : headline_measures()) {
             const auto found = run.measures.find(measure.key);

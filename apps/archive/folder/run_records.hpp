@@ -18,19 +18,28 @@ struct HeadlineMeasure {
 /// The twelve of them, in the order in which they are shown.
 std::span<const HeadlineMeasure> headline_measures();
 
+/// What a run's cycles go with besides its resolution.
+struct Pace {
+    double speed = 0.0; ///< of extension, m/s
+    double ramp = 24.0; ///< time in which the speed grew from rest, s
+    double softness = 1.0;
+};
+
 /// A run that a study has recorded, at one extension.
 struct RecordedRun {
-    std::string record;  ///< page or study that it comes from
-    std::string scene;   ///< name of a shipped scene, unchanged but for what follows
-    std::string made_by; ///< version and commit
-    double mean_radius = 0.0, speed = 0.0, extension = 0.0; ///< m, m/s, m
+    std::string record;       ///< page or study that it comes from
+    std::string scene;        ///< name of a shipped scene, unchanged but for what follows
+    std::string made_by;      ///< version and commit
+    double mean_radius = 0.0; ///< m
+    Pace pace;
+    double extension = 0.0; ///< m
     int seed = 0;
     std::map<std::string, double> measures; ///< those headline measures that are known
 };
 
 /// Runs in a file: CSV with the columns record, scene, made_by, mean_radius_m, speed_m_per_s,
-/// extension_m, seed and the headline measures, in any order; an empty field is unknown. Throws
-/// StorageError.
+/// ramp_s, softness, extension_m, seed and the headline measures, in any order; an empty field is
+/// unknown. Throws StorageError.
 std::vector<RecordedRun> read_run_records(const std::filesystem::path& file);
 
 /// Throws StorageError.

@@ -13,8 +13,7 @@ function defaultAt(facts, schema, document, path) {
   const level = facts.levels.find(one => one.name === name) || facts.levels[1];
   if (path === "extension.distance_m" && document.stage?.length)
     return stagesOf(facts, schema, document).reduce((sum, {travel}) => sum + travel, 0);
-  if (path === "hanging_wall.mean_radius_m") return level.mean_radius_m;
-  if (path === "extension.speed_m_per_s") return level.speed_m_per_s;
+  if (path in level.defaults) return level.defaults[path];
   const scaled = facts.effects[table]?.levels?.[level.name]?.[key];
   if (scaled !== undefined) return scaled;
   const source = table === "material" ? facts.basement : facts.effects[table]?.rock;

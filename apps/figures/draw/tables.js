@@ -121,8 +121,8 @@ function showCost() {
   facts.levels.forEach((level, k) => {
     const here = level.name === now, row = table.rows[k + 1], other = structuredClone(scene);
     other.accuracy = level.name;
-    if (!here) delete other.hanging_wall?.mean_radius_m;
-    if (!here) delete other.extension?.speed_m_per_s;
+    for (const [table, key] of Object.keys(level.defaults).map(path => path.split(".")))
+      if (!here) delete other[table]?.[key];
     const cost = page.chain ? predictCost(facts, schema, other) : null;
     page.seconds[level.name] = cost?.seconds;
     const radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));

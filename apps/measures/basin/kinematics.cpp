@@ -24,6 +24,20 @@ double sample_spacing(const Chain& detachment) {
     return std::min(25.0, length_of(detachment) / 200.0);
 }
 
+/// Points along a detachment: of use wherever many curves are compared with it.
+struct Samples {
+    explicit Samples(const Chain& detachment)
+        : spacing(sample_spacing(detachment)),
+          deepest(-point_at(detachment, length_of(detachment)).y) {
+        const double end = length_of(detachment);
+        for (double s = 0.0; s <= end; s += spacing)
+            points.push_back(point_at(detachment, s));
+    }
+
+    double spacing, deepest; ///< m
+    std::vector<Point> points;
+};
+
 /// Unit vector along the chain.
 Point tangent_at(const Chain& chain, double arc_length) {
     const double h = 1e-3;
@@ -37,16 +51,13 @@ Point tangent_at(const Chain& chain, double arc_length) {
 /// Height of the detachment against u = x + depth tan(angle): where a shear plane meets it.
 class ShearCoordinate {
 public:
-    ShearCoordinate(const Chain& detachment, double tangent) {
-        const double end = length_of(detachment), spacing = sample_spacing(detachment);
-        for (double s = 0.0; s <= end; s += spacing) {
-            const Point p = point_at(detachment, s);
+    ShearCoordinate(const Samples& detachment, double tangent) {
+        for (const Point p : detachment.points)
             // A detachment that rises again is met first where it is met first.
             if (const double u = p.x - p.y * tangent; u_.empty() || u > u_.back()) {
                 u_.push_back(u);
                 y_.push_back(p.y);
             }
-        }
     }
 
     double height(double u) const {
@@ -81,16 +92,12 @@ std::vector<double> heights(const std::vector<Point>& curve, std::span<const dou
     return y;
 }
 
-} // namespace
-
-std::vector<Point> inclined_shear_top(const Chain& detachment, double extension, double angle,
-                                      double right) {
+std::vector<Point> sheared_top(const Samples& detachment, double extension, double angle,
+                               double right) {
     const double tangent = dem::tangent(angle * pi / 180.0);
     const ShearCoordinate fault(detachment, tangent);
     std::vector<Point> top;
-    const double deepest = -point_at(detachment, length_of(detachment)).y;
-    const double spacing = sample_spacing(detachment);
-    for (double u = extension; u <= right + deepest * tangent; u += spacing) {
+    for (double u = extension; u <= right + detachment.deepest * tangent; u += detachment.spacing) {
         const double y = fault.height(u) - fault.height(u - extension);
         const double x = u + y * tangent;
         if (x > right && u > right)
@@ -98,6 +105,35 @@ std::vector<Point> inclined_shear_top(const Chain& detachment, double extension,
         top.push_back({x, y});
     }
     return top;
+}
+
+/// Root mean square of the heights of a prediction, and of the detachment left of it, less those of
+/// the top up to `last`.
+double misfit(const Samples& detachment, const std::vector<Point>& prediction,
+              std::span<const double> x, std::span<const double> top, double last) {
+    if (prediction.empty())
+        return 0.0;
+    const auto beyond = std::ranges::find_if(detachment.points,
+                                             [&](Point p) { return p.x > prediction.front().x; });
+    const std::vector<Point> curve(detachment.points.begin(),
+                                   beyond == detachment.points.end() ? beyond : beyond + 1);
+    std::vector<double> exposed = heights(curve, x), predicted = heights(prediction, x);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < x.size() && x[k] <= last; ++k) {
+        const double y = std::max(predicted[k], x[k] < prediction.front().x ? exposed[k] : nowhere);
+        if (!std::isfinite(y))
+            continue;
+        sum += (y - top[k]) * (y - top[k]);
+        count += 1.0;
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+} // namespace
+
+std::vector<Point> inclined_shear_top(const Chain& detachment, double extension, double angle,
+                                      double right) {
+    return sheared_top(Samples(detachment), extension, angle, right);
 }
 
 std::vector<Point> normals_top(const Chain& detachment, double extension, double right) {
@@ -146,25 +182,7 @@ double normals_halfgraben_share(const Chain& detachment, double extension, doubl
 
 double misfit(const Chain& detachment, const std::vector<Point>& prediction,
               std::span<const double> x, std::span<const double> top, double last) {
-    if (prediction.empty())
-        return 0.0;
-    std::vector<Point> curve;
-    const double end = length_of(detachment), spacing = sample_spacing(detachment);
-    for (double s = 0.0; s <= end; s += spacing) {
-        curve.push_back(point_at(detachment, s));
-        if (curve.back().x > prediction.front().x)
-            break;
-    }
-    std::vector<double> exposed = heights(curve, x), predicted = heights(prediction, x);
-    double sum = 0.0, count = 0.0;
-    for (std::size_t k = 0; k < x.size() && x[k] <= last; ++k) {
-        const double y = std::max(predicted[k], x[k] < prediction.front().x ? exposed[k] : nowhere);
-        if (!std::isfinite(y))
-            continue;
-        sum += (y - top[k]) * (y - top[k]);
-        count += 1.0;
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    return misfit(Samples(detachment), prediction, x, top, last);
 }
 
 InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
@@ -173,13 +191,13 @@ InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
     constexpr double step = 0.5;
     constexpr auto steps =
         static_cast<std::size_t>((greatest_shear_angle - least_shear_angle) / step);
+    const Samples samples(detachment);
     std::vector<InclinedShearFit> tried(steps + 1);
     in_pieces(tried.size(), 4, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
             const double angle = least_shear_angle + step * static_cast<double>(k);
-            tried[k] = {angle,
-                        misfit(detachment, inclined_shear_top(detachment, extension, angle, right),
-                               x, top, right)};
+            tried[k] = {angle, misfit(samples, sheared_top(samples, extension, angle, right), x,
+                                      top, right)};
         }
     });
     return *std::ranges::min_element(tried, {}, &InclinedShearFit::misfit);

@@ -61,10 +61,11 @@ double length_of(const Rows& band, const ConstDiscColumns& d) {
     double length = 0.0;
     for (int k = 0; k < directions; ++k) {
         const double angle = pi * k / directions;
+        const double cosine = dem::cosine(angle), sine = dem::sine(angle);
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const std::int32_t row : band) {
             const auto i = static_cast<std::size_t>(row);
-            const double along = d.x[i] * dem::cosine(angle) + d.y[i] * dem::sine(angle);
+            const double along = d.x[i] * cosine + d.y[i] * sine;
             low = std::min(low, along - d.radius[i]);
             high = std::max(high, along + d.radius[i]);
         }

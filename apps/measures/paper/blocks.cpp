@@ -231,8 +231,9 @@ double bounded_share(const RunSoFar& run, Point middle) {
     int bounded = 0;
     for (int n = 0; n < directions; ++n) {
         const double a = 2.0 * pi * n / directions;
+        const Point along{dem::cosine(a), dem::sine(a)};
         for (double s = 5.0 * run.diameter; s < farthest; s += 0.5 * run.diameter)
-            if (is_bound({middle.x + s * dem::cosine(a), middle.y + s * dem::sine(a)})) {
+            if (is_bound({middle.x + s * along.x, middle.y + s * along.y})) {
                 ++bounded;
                 break;
             }

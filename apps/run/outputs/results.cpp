@@ -42,8 +42,7 @@ std::string advice_on_faults(RunView& run) {
         scene.hanging_wall.mean_radius != level("draft").mean_radius)
         return {};
     Scene finer = scene;
-    finer.hanging_wall.mean_radius = level("standard").mean_radius;
-    finer.extension.speed = level("standard").speed;
+    set_level(finer, level("standard"));
     return fmt::format(
         "draft traces few faults: run it with --accuracy standard, about {}",
         rough_duration(predict(finer).work / predict(scene).work * run.wall_seconds()));

@@ -5,10 +5,11 @@
 namespace listric {
 
 std::span<const AccuracyLevel> accuracy_levels() {
-    static constexpr std::array<AccuracyLevel, 4> levels{{{"draft", 186.2, 2000.0, 1.25},
-                                                          {"standard", 93.1, 1000.0, 1.0},
-                                                          {"fine", 46.55, 500.0, 1.0},
-                                                          {"sandbox", 18.62, 500.0, 1.0}}};
+    static constexpr std::array<AccuracyLevel, 4> levels{
+        {{"draft", 186.2, 2000.0, 1.25, 24.0, 1.0},
+         {"standard", 93.1, 1000.0, 1.0, 24.0, 1.0},
+         {"fine", 46.55, 500.0, 1.0, 24.0, 1.0},
+         {"sandbox", 18.62, 500.0, 1.0, 24.0, 1.0}}};
     return levels;
 }
 

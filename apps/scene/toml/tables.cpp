@@ -170,7 +170,7 @@ std::vector<Parameter> extension_parameters() {
          "balance worse.",
          between(0.5, 2)},
         {"ramp_s", at<&P::ramp>, "s", between(0, 1e6), "",
-         "model time over which the speed grows from rest",
+         "model time over which the speed grows from rest; its default depends on the accuracy",
          "Lowering it starts the motion with a jolt."},
     };
 }
@@ -203,7 +203,7 @@ std::vector<Parameter> cycle_parameters() {
          "Changes the time of a run only, which is least near the default.", between(0.15, 1)},
         {"softness", at<&P::softness>, "", between(1, 64), "",
          "divides the stiffness of rock, sediment and layers; weakened and soft rock and the base "
-         "keep theirs",
+         "keep theirs; its default depends on the accuracy",
          "Raising it to 4 halves the cycles of a run; rock is then four times as compressible.",
          between(1, 16)},
     };

@@ -26,23 +26,23 @@ namespace {
 
 const std::string tilt = "rollover_tilt_deg";
 
-RecordedRun run_of(double radius, double speed, int seed, double value, const char* record = "r") {
+RecordedRun run_of(double radius, Pace pace, int seed, double value, const char* record = "r") {
     return {.record = record,
             .scene = "lis1",
             .made_by = "0",
             .mean_radius = radius,
-            .speed = speed,
+            .pace = pace,
             .extension = 10e3,
             .seed = seed,
             .measures = {{tilt, value}}};
 }
 
 const std::vector<RecordedRun> runs{
-    run_of(186.2, 1.25, 1, 38.0), run_of(186.2, 1.25, 2, 38.2), run_of(186.2, 1.25, 3, 38.4),
-    run_of(186.2, 0.5, 1, 38.1, "slow"), run_of(93.1, 1.0, 1, 38.5, "fine")};
+    run_of(186.2, {1.25}, 1, 38.0), run_of(186.2, {1.25}, 2, 38.2), run_of(186.2, {1.25}, 3, 38.4),
+    run_of(186.2, {0.5}, 1, 38.1, "slow"), run_of(93.1, {1.0}, 1, 38.5, "fine")};
 
-KnownError error_at(double radius, double speed, double extension = 10e3) {
-    const auto errors = known_errors(runs, {"lis1", radius, speed, extension});
+KnownError error_at(double radius, Pace pace, double extension = 10e3) {
+    const auto errors = known_errors(runs, {"lis1", radius, pace, extension});
     return *std::ranges::find(errors, tilt, &KnownError::key);
 }
 
@@ -53,7 +53,7 @@ Scene draft(const std::vector<std::string>& set = {}) {
 }
 
 TEST(KnownErrors, AreDistancesFromFinestAndSlowestAndTheSpreadBetweenSeeds) {
-    const KnownError error = error_at(186.2, 1.25);
+    const KnownError error = error_at(186.2, {1.25});
     EXPECT_NEAR(error.resolution->value, 38.2 - 38.5, 1e-12);
     EXPECT_EQ(error.resolution->record, "fine, r");
     EXPECT_EQ(error.resolution->against, "mean radius 93.1 m");
@@ -64,13 +64,30 @@ TEST(KnownErrors, AreDistancesFromFinestAndSlowestAndTheSpreadBetweenSeeds) {
     EXPECT_NEAR(error.mean, 38.2, 1e-12);
 }
 
+TEST(KnownErrors, OfSoftDiscsAreDistancesFromStiffOnes) {
+    std::vector<RecordedRun> soft = runs;
+    soft.push_back(run_of(186.2, {2.0, 600.0, 4.0}, 1, 38.7, "soft"));
+    soft.push_back(run_of(186.2, {1.25, 24.0, 4.0}, 1, 38.9, "soft, slow"));
+    const auto at = [&](Pace pace) {
+        const auto errors = known_errors(soft, {"lis1", 186.2, pace, 10e3});
+        return *std::ranges::find(errors, tilt, &KnownError::key);
+    };
+    const KnownError error = at({2.0, 600.0, 4.0});
+    EXPECT_NEAR(error.speed->value, 38.7 - 38.1, 1e-12);
+    EXPECT_EQ(error.speed->against, "softness 4 against 1, 2 against 0.5 m/s, mean radius 186.2 m");
+    EXPECT_EQ(error.mean, 38.7);
+    EXPECT_EQ(at({1.25, 24.0, 4.0}).mean, 38.9);
+    EXPECT_EQ(at({2.0, 24.0, 4.0}).mean, 0.0);                // another start
+    EXPECT_NEAR(at({1.25}).speed->value, 38.2 - 38.1, 1e-12); // soft ones are no measure of stiff
+}
+
 TEST(KnownErrors, AreUnknownWithoutRuns) {
-    const KnownError finest = error_at(93.1, 1.0);
+    const KnownError finest = error_at(93.1, {1.0});
     EXPECT_FALSE(finest.resolution); // nothing finer
     EXPECT_FALSE(finest.spread);     // one seed
     EXPECT_EQ(finest.speed->mean_radius, 186.2);
-    EXPECT_FALSE(error_at(186.2, 0.5).speed); // nothing slower
-    for (const KnownError& none : {error_at(186.2, 1.25, 5e3), error_at(46.55, 0.4)})
+    EXPECT_FALSE(error_at(186.2, {0.5}).speed); // nothing slower
+    for (const KnownError& none : {error_at(186.2, {1.25}, 5e3), error_at(46.55, {0.4})})
         EXPECT_FALSE(none.resolution || none.speed || none.spread);
 }
 
@@ -135,7 +152,7 @@ TEST(RunRecords, AreReadAsTheyWereWritten) {
     ASSERT_EQ(read.size(), runs.size());
     for (std::size_t k = 0; k < runs.size(); ++k) {
         EXPECT_EQ(read[k].record, runs[k].record);
-        EXPECT_EQ(read[k].speed, runs[k].speed);
+        EXPECT_EQ(read[k].pace.speed, runs[k].pace.speed);
         EXPECT_EQ(read[k].seed, runs[k].seed);
         EXPECT_EQ(read[k].measures, runs[k].measures);
     }
@@ -147,10 +164,12 @@ TEST(RunRecords, ThatAreDamagedAreRefusedWithTheirLine) {
         write_text(file, text);
         return support::message_of<StorageError>([&] { read_run_records(file); }, "none");
     };
-    const std::string head = "record,scene,made_by,mean_radius_m,speed_m_per_s,extension_m,seed";
+    const std::string head =
+        "record,scene,made_by,mean_radius_m,speed_m_per_s,ramp_s,softness,extension_m,seed";
     EXPECT_THAT(message(head + ",tilt\n"), HasSubstr(":1: tilt is no column"));
     EXPECT_THAT(message("record,scene\n"), HasSubstr(":1: has no column"));
-    EXPECT_THAT(message(head + "\nr,lis1,0,93,1,1e4,x\n"), HasSubstr(":2: seed: \"x\" is not"));
+    EXPECT_THAT(message(head + "\nr,lis1,0,93,1,24,1,1e4,x\n"),
+                HasSubstr(":2: seed: \"x\" is not"));
     EXPECT_THAT(message(head + "\nr,lis1,0,93\n"), HasSubstr(":2: has another number"));
     EXPECT_EQ(message(head + "\n"), "none");
 }

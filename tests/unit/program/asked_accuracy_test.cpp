@@ -82,8 +82,8 @@ KnownError error_of(double resolution) {
     return error;
 }
 
-const std::vector<AccuracyChoice> choices{{"draft", 1.25, 1, 10.0, {error_of(0.3)}},
-                                          {"standard", 1.0, 1, 100.0, {error_of(-0.1)}}};
+const std::vector<AccuracyChoice> choices{{"draft", {1.25}, 1, 10.0, {error_of(0.3)}},
+                                          {"standard", {1.0}, 1, 100.0, {error_of(-0.1)}}};
 
 TEST(AskedAccuracy, PromisesWhatTheSpreadOfFewSeedsAllows) {
     for (const int seeds : {1, 4}) {
@@ -124,10 +124,10 @@ TEST(AskedAccuracy, FillsATimeWithTheFinestLevel) {
     EXPECT_EQ(best_choice(choices, 1e9)->seeds, 10);
     // A slower speed of which nothing can be promised comes after one with a promise.
     std::vector<AccuracyChoice> slower{choices[0], choices[0]};
-    slower[1].speed = 0.5;
-    EXPECT_EQ(best_choice(slower, 10.0)->speed, 0.5);
+    slower[1].pace.speed = 0.5;
+    EXPECT_EQ(best_choice(slower, 10.0)->pace.speed, 0.5);
     slower[1].errors[0].speed = std::nullopt;
-    EXPECT_EQ(best_choice(slower, 10.0)->speed, 1.25);
+    EXPECT_EQ(best_choice(slower, 10.0)->pace.speed, 1.25);
 }
 
 TEST(AskedAccuracy, KnowsTheRecordedWaysOfAScene) {
@@ -135,7 +135,7 @@ TEST(AskedAccuracy, KnowsTheRecordedWaysOfAScene) {
                                       .scene = "lis1",
                                       .made_by = "0",
                                       .mean_radius = 93.1,
-                                      .speed = 1.0,
+                                      .pace = {1.0},
                                       .extension = 10e3,
                                       .seed = 1,
                                       .measures = {{"rollover_tilt_deg", 38.0}}});
