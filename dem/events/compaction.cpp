@@ -51,12 +51,14 @@ bool Compaction::apply(State& state, const RigidBase& base) {
         given ? state.discs.get(columns::wanted_porosity) : std::span<double>{};
     std::ranges::fill(radius_rate, 0.0);
     const auto compact = [&](std::size_t i, Cover& cover) {
-        const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        const double wanted =
-            given ? wanted_porosity[i]
-                  : surface_porosity_ * exponential(-parameters_.coefficient * depth);
         const double area = d.radius[i] * d.radius[i];
-        const bool shrinks = d.stratum[i] > 0 && wanted < porosity[i];
+        double wanted = porosity[i];
+        if (d.stratum[i] > 0) {
+            const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
+            wanted = given ? wanted_porosity[i]
+                           : surface_porosity_ * exponential(-parameters_.coefficient * depth);
+        }
+        const bool shrinks = wanted < porosity[i];
         const double kept = shrinks ? (1.0 - porosity[i]) / (1.0 - wanted) : 1.0; // grains are kept
         cover.now += area;
         cover.compacted += kept * area;
