@@ -15,13 +15,22 @@ using namespace dem;
 
 namespace {
 
-/// Divides the stiffness of a material that is not weak or soft already.
+/// Divides the stiffness of materials. What is weak or soft keeps its own, up to that of rock:
+/// where nothing weakens rock, the weak material is rock itself.
 void soften(std::span<Material> materials, double softness) {
-    for (std::size_t m = 0; m < materials.size(); ++m)
-        if (!is_soft(materials, static_cast<std::uint8_t>(m))) {
-            materials[m].normal_stiffness /= softness;
-            materials[m].shear_stiffness /= softness;
+    if (softness == 1.0)
+        return;
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        Material& material = materials[m];
+        if (is_soft(materials, static_cast<std::uint8_t>(m))) {
+            const Material& rock = materials[basement];
+            material.normal_stiffness = std::min(material.normal_stiffness, rock.normal_stiffness);
+            material.shear_stiffness = std::min(material.shear_stiffness, rock.shear_stiffness);
+        } else {
+            material.normal_stiffness /= softness;
+            material.shear_stiffness /= softness;
         }
+    }
 }
 
 } // namespace

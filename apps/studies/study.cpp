@@ -3,6 +3,7 @@
 #include "apps/archive/folder/json_file.hpp"
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/csv_records.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/python.hpp"
 #include "apps/support/version.hpp"
@@ -38,8 +39,9 @@ std::string processor() {
 std::string to_csv(const StudyResult& result) {
     std::string text = "method,parameter,quantity,error,wall_s,disc_steps\n";
     for (const StudyPoint& p : result.points)
-        text += fmt::format("{},{},{},{:.6g},{:.4g},{:.6g}\n", p.method, p.parameter, p.quantity,
-                            p.error, p.wall, p.disc_steps);
+        text +=
+            fmt::format("{},{},{},{:.6g},{:.4g},{:.6g}\n", csv_cell(p.method),
+                        csv_cell(p.parameter), csv_cell(p.quantity), p.error, p.wall, p.disc_steps);
     return text;
 }
 

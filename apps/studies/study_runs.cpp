@@ -363,15 +363,16 @@ StudyResult study_softness(const StudyRequest& asked) {
                                request.scene, softnesses.back());
     // The faster the wall, the slower its start.
     for (const auto& [method, prefix, set] :
-         {std::tuple{"speed of draft", "softness", ""},
-          std::tuple{"2 m/s, slow start", "2-m-per-s-softness",
+         {std::tuple{"the speed of draft", "softness", ""},
+          std::tuple{"2 m/s after a slow start", "2-m-per-s-softness",
                      "extension.speed_m_per_s=2 extension.ramp_s=600"},
-          std::tuple{"3 m/s, slow start", "3-m-per-s-softness",
+          std::tuple{"3 m/s after a slow start", "3-m-per-s-softness",
                      "extension.speed_m_per_s=3 extension.ramp_s=800"}}) {
         std::vector<StudyRun> runs = runs_along(prefix, "cycle.softness", softnesses, words(set));
         if (runs.back().parameter != reference[0].parameter)
             runs.push_back(reference[0]);
-        sweep_runs(request, fmt::format("{}, {}", request.scene, method), runs, quantities, result);
+        sweep_runs(request, fmt::format("{} at {}: runs", request.scene, method), runs, quantities,
+                   result);
     }
     return result;
 }

@@ -202,8 +202,8 @@ std::vector<Parameter> cycle_parameters() {
          "margin of the neighbour list, in mean radii",
          "Changes the time of a run only, which is least near the default.", between(0.15, 1)},
         {"softness", at<&P::softness>, "", between(1, 64), "",
-         "divides the stiffness of rock, sediment and layers; weakened and soft rock and the base "
-         "keep theirs; its default depends on the accuracy",
+         "divides the stiffness of rock, sediment and layers; weakened and soft rock, up to "
+         "that of rock, and the base keep theirs; its default depends on the accuracy",
          "Raising it to 4 halves the cycles of a run; rock is then four times as compressible.",
          between(1, 16)},
     };

@@ -6,6 +6,7 @@
 #include "apps/support/files/csv_records.hpp"
 #include "tests/small_halfgraben.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -112,6 +113,31 @@ TEST_F(StudyTest, OfTheTimeStepShowsOrderAndLimit) {
     // A step below the limit does not matter to what rests; heavier discs do.
     const std::string scaling = "bonded lattice: density scaling";
     EXPECT_GT(error_of(all, scaling, "mass=256"), 2.0 * error_of(all, scaling, "mass=1"));
+}
+
+TEST_F(StudyTest, OfSoftnessCountsCyclesAgainstStiffDiscs) {
+    StudyRequest request = small("softness");
+    request.values = {1.0, 4.0};
+    request.seeds = 1;
+    request.set = {"extension.distance_m=5.0"};
+    run_study(request);
+    const auto disc_steps = [all = points(request.output)](const std::string& method,
+                                                           const std::string& parameter) {
+        for (const StudyPoint& p : all)
+            if (p.method.ends_with(method + ": runs") && p.parameter == parameter)
+                return p.disc_steps;
+        ADD_FAILURE() << method << ' ' << parameter << " is missing";
+        return 1.0;
+    };
+    // Equal times in steps that go with the root; packings differ by some discs.
+    for (const char* speed : {"2", "3"}) {
+        const std::string method = fmt::format("{} m/s after a slow start", speed);
+        const auto at = [&](const char* softness) {
+            return disc_steps(method, fmt::format("{}-m-per-s-softness={}", speed, softness));
+        };
+        EXPECT_NEAR(at("4") / at("1"), 0.5, 0.03) << speed;
+        EXPECT_EQ(disc_steps(method, "softness=1"), disc_steps("the speed of draft", "softness=1"));
+    }
 }
 
 TEST_F(StudyTest, RefusesWhatItDoesNotKnow) {

@@ -294,6 +294,17 @@ TEST_F(SceneTest, SoftnessDividesStiffnessButOfWeakRockAndBase) {
     EXPECT_EQ(soft.base.material.normal_stiffness, stiff.base.material.normal_stiffness);
 }
 
+TEST_F(SceneTest, SoftRockIsTheStiffestRock) { // else the time step would not grow
+    for (const char* rocks :
+         {"", "[sedimentation]\n", "[fault_weakening]\nnormal_stiffness_pa = 1.7e11\n"}) {
+        const ModelParts soft = make_parts(load(minimal + rocks + "[cycle]\nsoftness = 4\n"));
+        for (const Material& material : soft.materials) {
+            EXPECT_LE(material.normal_stiffness, soft.materials[basement].normal_stiffness);
+            EXPECT_LE(material.shear_stiffness, soft.materials[basement].shear_stiffness);
+        }
+    }
+}
+
 TEST_F(SceneTest, DiscsThatOverlapTooMuchAreWarnedOf) {
     const std::string heavy = minimal + "[gravity]\n[cycle]\nsoftness = ";
     EXPECT_THAT(load(heavy + "2\n").warnings, testing::IsEmpty());
