@@ -355,7 +355,6 @@ StudyResult study_softness(const StudyRequest& asked) {
     std::vector<StudyQuantity> quantities = basin_quantities(scene);
     quantities.push_back(
         {measures::name_of<&measures::Measures::broken, &measures::BrokenRock::width>(), 0.0});
-    quantities.push_back({measures::name_of<&measures::Measures::still_ground>(), 1.0, true});
     const std::vector<StudyRun> reference =
         runs_along("softness", "cycle.softness", {softnesses.back()});
     StudyResult result;

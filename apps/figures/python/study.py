@@ -18,8 +18,8 @@ sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import FAINT, name_powers, new_figure, read_json, read_rows, run, save, without_frame
 
 COLOURS = ("#1f6fb4", "#d7301f", "#238b45", "#6a51a3", "#d95f0e", "#525252", "#c51b8a",
-           "#0f8b8d", "#8c6d31")
-MARKERS = "os^Dv<>Ph"
+           "#0f8b8d", "#8c6d31", "#111111")
+MARKERS = "os^Dv<>PhX"
 Point = dict[str, float | str | bool]
 Curves = dict[tuple[str, str], list[Point]]   # by method and quantity
 Panels = dict[str, Curves]
