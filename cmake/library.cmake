@@ -49,6 +49,26 @@ function(listric_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${headers_folder}>)
 endfunction()
 
+# listric_add_version(TARGET): gives it version.cpp, which is looked at in every build and written only when a value
+# changed, so that a commit or an edit in dem recompiles this one file and not whatever includes version.hpp.
+function(listric_add_version target)
+  set(version_source ${CMAKE_CURRENT_BINARY_DIR}/version.cpp)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+  list(JOIN floating_point_flags " " joined_flags)
+  string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} ${joined_flags}" build_flags)
+  add_custom_target(listric_version
+    COMMAND ${CMAKE_COMMAND}
+      -D source=${PROJECT_SOURCE_DIR} -D output=${version_source}
+      -D version=${PROJECT_VERSION} -D "compiler=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
+      -D "build_flags=${build_flags}" -P ${PROJECT_SOURCE_DIR}/apps/support/version.cmake
+    BYPRODUCTS ${version_source}
+    COMMENT "Version"
+    VERBATIM)
+  set_source_files_properties(${version_source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_sources(${target} PRIVATE ${version_source})
+  add_dependencies(${target} listric_version)
+endfunction()
+
 # listric_install(NAME HEADERS...): installs the library and its public headers, paths below this
 # folder. Those that it does not name are private.
 function(listric_install name)

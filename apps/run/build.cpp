@@ -46,7 +46,16 @@ void drive(Simulation& simulation, RunView& run) {
         simulation.respond_by(*response);
 }
 
-void start(Simulation& simulation, RunView& run) {
+State kept_hanging_wall(const RunView& run, const StageReport& report) {
+    return make_or_recall_hanging_wall(run.scene, run.parts, run.log, report, run.options.stop,
+                                       run.options.threads);
+}
+
+State own_hanging_wall(const RunView& run, const StageReport& report) {
+    return make_hanging_wall(run.scene, run.parts, report, run.options.stop, run.options.threads);
+}
+
+void start(Simulation& simulation, RunView& run, HangingWallSource* hanging_wall) {
     drive(simulation, run);
     const auto report = [&](std::string_view stage, double share) {
         run.show_progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
@@ -54,8 +63,7 @@ void start(Simulation& simulation, RunView& run) {
     State state;
     {
         const PartWatch time = run.watch(Part::genesis);
-        state = make_or_recall_hanging_wall(run.scene, run.parts, run.log, report, run.options.stop,
-                                            run.options.threads);
+        state = hanging_wall(run, report);
     }
     if (run.driver) {
         const PartWatch time = run.watch(Part::base);

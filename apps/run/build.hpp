@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/model/hanging_wall.hpp"
 #include "apps/run/run_view.hpp"
 
 #include <functional>
@@ -15,8 +16,12 @@ void add_events(dem::Simulation& simulation, RunView& run);
 /// the events of its loads. May be called again.
 void drive(dem::Simulation& simulation, RunView& run);
 
+/// Where a run has its hanging wall before extension from: the cache, or made anew, without files.
+using HangingWallSource = dem::State(const RunView& run, const StageReport& report);
+HangingWallSource kept_hanging_wall, own_hanging_wall;
+
 /// Drives the simulation and begins it with the hanging wall before extension. Throws Interrupted.
-void start(dem::Simulation& simulation, RunView& run);
+void start(dem::Simulation& simulation, RunView& run, HangingWallSource* hanging_wall);
 
 /// Ends a window of extension: lets the base's driver end it, calls `tell`, and remembers the
 /// moment for what follows faults back.

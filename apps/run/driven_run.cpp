@@ -19,14 +19,14 @@ struct Run::Parts {
     RunView view;
     dem::Simulation simulation;
 
-    Parts(Scene s, int threads)
+    Parts(Scene s, int threads, HangingWallSource* hanging_wall)
         : scene(std::move(s)), view(scene, options, log, simulation),
           simulation(view.parts.base, view.parts.physics) {
         options.threads = threads;
         const dem::Team team(threads);
         add_events(simulation, view);
         view.begin_record();
-        start(simulation, view);
+        start(simulation, view, hanging_wall);
         end_window();
     }
 
@@ -36,9 +36,15 @@ struct Run::Parts {
     }
 };
 
-Run::Run(Scene scene, int threads) : parts_(std::make_unique<Parts>(std::move(scene), threads)) {}
+Run::Run(Scene scene, int threads)
+    : parts_(std::make_unique<Parts>(std::move(scene), threads, kept_hanging_wall)) {}
+Run::Run(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
+
+Run Run::without_files(Scene scene, int threads) {
+    return Run(std::make_unique<Parts>(std::move(scene), threads, own_hanging_wall));
+}
 
 bool Run::extend_to(double goal, const Report& report) {
     if (const double most = scene().extension.distance; goal > most)

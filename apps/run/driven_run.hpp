@@ -19,6 +19,8 @@ public:
     /// Begins with the hanging wall before extension. Throws UsageError where the scene has no
     /// hanging wall, NumericalFailure.
     explicit Run(Scene scene, int threads = 1);
+    /// As above, but knows no cache: writes and reads no file until save() is called.
+    static Run without_files(Scene scene, int threads = 1);
     ~Run();
     Run(Run&&) noexcept;
 
@@ -47,6 +49,7 @@ public:
 
 private:
     struct Parts;
+    explicit Run(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
 };
 

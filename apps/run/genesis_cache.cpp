@@ -8,7 +8,6 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/version.hpp"
-#include "dem/genesis/genesis.hpp"
 #include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>
@@ -114,40 +113,6 @@ private:
     bool has_waited_ = false;
 };
 
-std::vector<RockLayer> layers_of(const ModelParts& parts) {
-    std::vector<RockLayer> layers;
-    for (const LayerFacts& layer : parts.layers)
-        layers.push_back(layer.rock);
-    return layers;
-}
-
-State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& report,
-                const StopToken& stop, int threads) {
-    // The hanging wall comes to rest on a base that does too, so its mean motion is none.
-    RigidBase base = parts.base;
-    stand_backstop(base);
-    const GenesisRequest request{
-        .hanging_wall = scene.hanging_wall,
-        .base = std::move(base),
-        .materials = parts.materials,
-        .bonds = parts.bonds,
-        .layers = layers_of(parts),
-        .sediment_density =
-            parts.sediment ? std::optional(parts.sediment->disc_density) : std::nullopt,
-        .physics = {.damping = parts.physics.damping, .gravity = parts.physics.gravity},
-        .time_step_safety = scene.cycle.time_step_safety,
-        .inertial_mass_floor = scene.cycle.inertial_mass_floor,
-        .skin = scene.cycle.skin,
-        .seed = scene.seed,
-        .execution = {.threads = threads}};
-    return make_hanging_wall(request, [&](std::string_view stage, double share) {
-        if (stop.requested())
-            throw Interrupted{};
-        if (report)
-            report(fmt::format("hanging wall: {}", stage), share);
-    });
-}
-
 } // namespace
 
 fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
@@ -164,7 +129,7 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
         log.say("warning: the hanging wall cannot be kept for later runs: HOME is not set, and "
                 "there is no folder for temporary files that is yours alone; XDG_CACHE_HOME may "
                 "name one");
-        return make_anew(scene, parts, report, stop, threads);
+        return make_hanging_wall(scene, parts, report, stop, threads);
     }
     const std::string asked = asked_for(scene, parts);
     if (auto state = recall(cache, asked, parts.materials, log))
@@ -173,7 +138,7 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
     if (lock.has_waited())
         if (auto state = recall(cache, asked, parts.materials, log))
             return std::move(*state);
-    State state = make_anew(scene, parts, report, stop, threads);
+    State state = make_hanging_wall(scene, parts, report, stop, threads);
     keep(state, cache, asked, log);
     return state;
 }

@@ -1,18 +1,11 @@
 #pragma once
 
-#include "apps/scene/parameters/effect.hpp"
-#include "apps/support/machine/stop.hpp"
+#include "apps/model/hanging_wall.hpp"
 #include "apps/support/words/log.hpp"
-#include "dem/state.hpp"
 
 #include <filesystem>
-#include <functional>
-#include <string_view>
 
 namespace listric {
-
-/// Told which stage is how far, as a share.
-using StageReport = std::function<void(std::string_view stage, double share)>;
 
 /// Where the hanging wall of a scene is kept: genesis is the same for every scene with the same
 /// hanging wall, whatever happens to it afterwards.

@@ -1,6 +1,6 @@
 #include "apps/run/progress_line.hpp"
 
-#include "apps/support/words/log.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -91,7 +91,7 @@ void Session::begin() {
     if (run_.scene.picked_fault)
         run_.log.say(describe(*run_.scene.picked_fault, *run_.scene.detachment));
     enter(Phase::genesis);
-    start(simulation_, run_);
+    start(simulation_, run_, kept_hanging_wall);
     end_window(&Output::begin);
 }
 

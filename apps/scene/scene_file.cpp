@@ -6,6 +6,7 @@
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/pieces.hpp"
 #include "apps/scene/toml/tables.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
@@ -195,10 +196,9 @@ std::string existing(const Entry& entry, const std::string& name, const fs::path
     if (name.empty())
         fail(entry, "is empty, needs the path of a file; or leave it out");
     const std::string file = located(name, &entry.node, folder);
-    std::error_code error;
-    if (fs::is_directory(file, error))
+    if (is_folder(file))
         fail(entry, fmt::format("{}: is a directory, needs a file", file));
-    if (!fs::is_regular_file(file, error))
+    if (!is_file(file))
         fail(entry, fmt::format("{}: no such file", file));
     return file;
 }

@@ -1,4 +1,4 @@
-# Writes version.cpp, only if it changes. Runs in every build (apps/CMakeLists.txt).
+# Writes version.cpp, only if it changes. Runs in every build (cmake/library.cmake).
 
 # Only a clone of its own counts: an unpacked archive may lie inside somebody else's repository.
 set(commit "")

@@ -51,8 +51,12 @@ Cycle best_cycle() {
     static const Cycle best = [] {
         if (const char* wanted = std::getenv("LISTRIC_CYCLE"))
             return cycle_named(wanted);
+#if defined __wasm_simd128__ // clang makes two registers of a vector
+        return fast_cycle();
+#else
         // Without AVX the compiler takes vectors apart, and the plain cycle is twice as fast.
         return fast_cycle() == Cycle::baseline ? Cycle::plain : fast_cycle();
+#endif
     }();
     return best;
 }

@@ -17,6 +17,21 @@ namespace listric::dem {
 
 using Work = std::function<void(std::size_t)>;
 
+#if defined __wasi__
+
+/// A module in a page has no threads: the caller does all.
+class Team::Helpers {
+public:
+    void start(std::size_t) {}
+    int count() const { return 0; }
+    void share(std::size_t count, const Work& work) {
+        for (std::size_t k = 0; k < count; ++k)
+            work(k);
+    }
+};
+
+#else
+
 /// Threads that wait for loops to help with.
 class Team::Helpers {
 public:
@@ -102,6 +117,8 @@ private:
     std::vector<std::exception_ptr> failures_;
     std::vector<std::jthread> threads_; ///< the last, so that they end first
 };
+
+#endif
 
 namespace {
 

@@ -18,6 +18,7 @@ DRAWING = ROOT / "build" / "architecture.svg"
 
 # From the top floor to the ground.
 FLOORS = {
+    "apps/page": "scenes read and run in a browser: a module",
     "apps/commands": "the command line: one file per call",
     "apps/studies": "many runs: validation, accuracy against time",
     "apps/laboratory": "samples under test: what rock microproperties make",

@@ -15,7 +15,7 @@ READER = "apps/python"
 
 # A room sees those before it.
 APPS = [f"apps/{name}" for name in ("support", "scene", "model", "measures", "archive", "figures",
-                                    "run", "laboratory", "studies", "commands")]
+                                    "run", "laboratory", "studies", "commands", "page")]
 LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "coupling"},
              "fluid": {"dem", "fluid"}}
 

@@ -6,6 +6,7 @@
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/scene/parameters/accuracy.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

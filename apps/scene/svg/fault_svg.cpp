@@ -5,6 +5,7 @@
 #include "apps/scene/svg/svg_place.hpp"
 #include "apps/scene/svg/svg_transform.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 #include "dem/numbers/elementary.hpp"
@@ -14,7 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <optional>
 
 namespace listric {
 
@@ -37,11 +38,13 @@ void load(pugi::xml_document& document, const std::filesystem::path& file) {
     if (const auto size = std::filesystem::file_size(file, error); !error && size > largest)
         refuse(where,
                fmt::format("has {} bytes, allowed for a drawing: at most {}", size, largest));
-    std::array<char, 2> head{};
-    std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-    if (head[0] == '\x1f' && head[1] == '\x8b')
+    const std::optional<std::string> text = first_bytes(file, largest);
+    if (text && text->starts_with("\x1f\x8b"))
         refuse(where, "is compressed (.svgz); save it as plain SVG");
-    const pugi::xml_parse_result parsed = document.load_file(file.c_str());
+    pugi::xml_parse_result parsed;
+    parsed.status = pugi::status_file_not_found;
+    if (text)
+        parsed = document.load_buffer(text->data(), text->size());
     if (!parsed)
         refuse(where, fmt::format("cannot be read as SVG: {} at byte {}", parsed.description(),
                                   parsed.offset));

@@ -1,6 +1,6 @@
 #include "apps/scene/toml/document.hpp"
 
-#include "apps/support/files/file.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/words/text.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <optional>
+#include <utility>
 
 namespace listric {
 
@@ -39,14 +40,12 @@ toml::table read_document(const Shelf& shelf, const fs::path& path) {
     if (is_pipe_or_device(path))
         fail(fmt::format("{}: is no regular file (a pipe or a device); needs a {}, saved in a file",
                          path.string(), shelf.kind));
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    // Stops early where the file is not text, or has no end.
-    for (char letter = 1; letter != '\0' && text.size() <= most_bytes && file.get(letter);)
-        text += letter;
-    if (!file.is_open() || file.bad())
+    std::optional<std::string> bytes = first_bytes(path, most_bytes + 1);
+    if (!bytes)
         fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+    std::string text = std::move(*bytes);
+    if (const auto nul = std::ranges::find(text, '\0'); nul != text.end())
+        text.erase(nul + 1, text.end()); // no text, however long
     if (text.size() > most_bytes)
         fail(fmt::format("{}: is larger than {} MB; a {} is a few kB of TOML", path.string(),
                          most_bytes / 1'000'000, shelf.kind));

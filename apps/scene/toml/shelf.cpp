@@ -2,6 +2,7 @@
 
 #include "apps/scene/toml/toml.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "apps/support/words/spelling.hpp"
 
@@ -27,11 +28,9 @@ fs::path Shelf::path() const {
 std::vector<std::string> Shelf::names() const {
     std::vector<std::string> names;
     std::error_code error;
-    for (fs::directory_iterator file(path(), error), end; !error && file != end;
-         file.increment(error)) {
-        if (file->path().extension() == ".toml")
-            names.push_back(file->path().stem().string());
-    }
+    for (const fs::path& file : list_folder(path(), error))
+        if (file.extension() == ".toml")
+            names.push_back(file.stem().string());
     if (error)
         fail(fmt::format("{}: {}s folder cannot be read: {}", path().string(), kind,
                          error.message()));
@@ -42,12 +41,14 @@ std::vector<std::string> Shelf::names() const {
 fs::path Shelf::find(const std::string& wanted) const {
     const fs::path file = is_path(wanted) ? fs::path(wanted) : path() / (wanted + ".toml");
     std::error_code error;
-    if (fs::is_directory(file, error))
+    const fs::file_status status = status_of(file, error);
+    if (fs::is_directory(status))
         fail(fmt::format("{}: is a directory, needs a {} file", file.string(), kind));
-    if (fs::exists(file, error))
+    if (fs::exists(status))
         return file;
-    std::error_code none;
-    if (!is_path(wanted) && fs::is_regular_file(wanted, none))
+    if (fs::status_known(status)) // that it is not there
+        error.clear();
+    if (!is_path(wanted) && is_file(wanted))
         fail(fmt::format("{}: the name of a {} ends with .toml; rename the file", wanted, kind));
     const std::vector<std::string> shipped = names();
     const std::vector<std::string_view> candidates(shipped.begin(), shipped.end());
@@ -63,8 +64,7 @@ fs::path Shelf::find(const std::string& wanted) const {
 std::string Shelf::namesake(const std::string& wanted, const fs::path& beside) const {
     const fs::path other = beside / (wanted + ".toml");
     std::error_code error;
-    if (is_path(wanted) || !fs::is_regular_file(other, error) ||
-        fs::equivalent(other, find(wanted), error))
+    if (is_path(wanted) || !is_file(other) || fs::equivalent(other, find(wanted), error))
         return {};
     return fmt::format("{0}: is the shipped {1}; the file {0}.toml in this folder is ./{0}.toml",
                        wanted, kind);

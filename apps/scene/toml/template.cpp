@@ -4,6 +4,7 @@
 #include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/tables.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/machine/resources.hpp"
 
 #include <fmt/format.h>
@@ -58,9 +59,9 @@ std::string source_line(const Given& given, std::string_view table, const Parame
         return line_of(parameter, defaults, false);
     std::ostringstream value;
     const auto text = node->value<std::string>();
-    const bool is_file = text && std::holds_alternative<Place<std::string>>(parameter.value) &&
-                         fs::is_regular_file(given.folder / *text);
-    if (is_file)
+    const bool names_file = text && std::holds_alternative<Place<std::string>>(parameter.value) &&
+                            is_file(given.folder / *text);
+    if (names_file)
         value << quoted(fs::absolute(given.folder / *text).lexically_normal().string());
     else
         node->visit([&](const auto& one) { value << one; });

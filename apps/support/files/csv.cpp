@@ -3,6 +3,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/csv_header.hpp"
 #include "apps/support/files/csv_records.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
 
@@ -14,7 +15,6 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
@@ -44,22 +44,17 @@ std::string bytes_of(const fs::path& path) {
         refuse(name, fmt::format("cannot be read: {}", why));
     };
     std::error_code error;
-    const fs::file_status status = fs::status(path, error);
+    const fs::file_status status = status_of(path, error);
     if (!fs::exists(status))
         fail(error ? error.message() : std::strerror(ENOENT));
     if (!fs::is_regular_file(status)) // a pipe may never end
         refuse(name, "is no regular file; needs a table in CSV");
-    std::ifstream file(path, std::ios::binary);
-    if (!file.is_open())
+    std::optional<std::string> bytes = first_bytes(path, largest_file + 1);
+    if (!bytes)
         fail(std::strerror(errno));
-    std::string bytes(std::min<std::uintmax_t>(fs::file_size(path, error), largest_file + 1), '\0');
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (file.bad())
-        fail(std::strerror(errno));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    if (bytes.size() > largest_file)
+    if (bytes->size() > largest_file)
         refuse(name, "has more than 256 MB, allowed: at most that; keep every n-th row");
-    return bytes;
+    return std::move(*bytes);
 }
 
 /// Kind of a file that is no text in UTF-8, by its first bytes.

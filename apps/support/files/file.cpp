@@ -3,14 +3,11 @@
 #include "apps/support/error.hpp"
 #include "apps/support/words/log.hpp"
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <optional>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -53,19 +50,6 @@ bool is_on_disk(int file, const fs::path& path) {
     return true;
 }
 
-/// All of a file; nothing of what is not there or no file.
-std::optional<std::string> text_of(const fs::path& path) {
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        return std::nullopt;
-    std::string text;
-    std::array<char, 1 << 16> part; // read() does not throw where the disk fails, an iterator does
-    while (in.read(part.data(), part.size()) || in.gcount() > 0)
-        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
-    return in.bad() ? std::nullopt : std::optional(std::move(text));
-}
-
 } // namespace
 
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
@@ -96,28 +80,6 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 
 void write_text(const fs::path& path, std::string_view text) {
     write_bytes(path, std::as_bytes(std::span(text)));
-}
-
-bool is_pipe_or_device(const fs::path& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-std::string read_text(const fs::path& path) {
-    std::error_code error;
-    if (fs::is_directory(path, error))
-        throw StorageError(path.string() + ": cannot be read: it is a folder");
-    if (auto text = text_of(path))
-        return std::move(*text);
-    throw StorageError(path.string() + ": cannot be read: " + std::strerror(errno ? errno : EIO));
-}
-
-std::string read_text_if_there(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) // a pipe would wait for who never writes
-        return "";
-    return text_of(path).value_or("");
 }
 
 void make_folder(const fs::path& folder) {

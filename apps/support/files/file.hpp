@@ -1,9 +1,10 @@
 #pragma once
 
+#include "apps/support/files/reading.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace listric {
@@ -14,16 +15,6 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 
 /// Writes a text as write_bytes() does.
 void write_text(const std::filesystem::path& path, std::string_view text);
-
-/// Whether a name is there but of no regular file, nor of a folder: of a pipe or a device, which
-/// may never end, or never begin.
-bool is_pipe_or_device(const std::filesystem::path& path);
-
-/// All of a file. Throws StorageError.
-std::string read_text(const std::filesystem::path& path);
-
-/// All of a file; empty if it cannot be read.
-std::string read_text_if_there(const std::filesystem::path& path);
 
 /// Makes a folder and those above it, if they are not there. Throws StorageError.
 void make_folder(const std::filesystem::path& folder);

@@ -1,5 +1,6 @@
 #include "apps/support/words/log.hpp"
 
+#include "apps/support/stopwatch.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/text.hpp"
 
@@ -12,10 +13,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unistd.h>
+#include <vector>
 
 namespace listric {
 
@@ -42,61 +47,64 @@ bool rewrites_lines() {
     return isatty(STDERR_FILENO) != 0 && kind && *kind && std::string_view(kind) != "dumb";
 }
 
-} // namespace
-
-std::string rough_duration(double seconds) {
-    const auto s = std::lround(std::min(seconds, 1e9));
-    if (s < 90)
-        return fmt::format("{} s", s);
-    if (s < 570) {
-        const auto tens = (s + 5) / 10;
-        return tens % 6 == 0 ? fmt::format("{} min", tens / 6)
-                             : fmt::format("{} min {} s", tens / 6, 10 * (tens % 6));
-    }
-    if (s < 5400)
-        return fmt::format("{} min", (s + 30) / 60);
-    return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
-}
-
-void warn(std::string_view message) {
-    const std::string text = fmt::format("listric: warning: {}\n", shown_lines(message));
+/// A closed or full stderr must not end a run.
+void tell(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }
 
-Log::Log(const std::filesystem::path& file, bool quiet)
-    : quiet_(quiet), terminal_(rewrites_lines()) {
+} // namespace
+
+void warn(std::string_view message) {
+    tell(fmt::format("listric: warning: {}\n", shown_lines(message)));
+}
+
+struct Log::Parts {
+    std::mutex mutex;
+    std::ofstream file;
+    std::string whose; ///< the file's folder, before a warning
+    bool quiet, terminal;
+    bool shows_progress = false; ///< on the terminal's current line
+    bool has_progressed = false;
+    SteadyClock::time_point last_progress; ///< that was shown
+    SteadyClock::time_point begun = SteadyClock::now();
+    std::vector<std::string> warnings;
+};
+
+Log::Log(const std::filesystem::path& file, bool quiet) : parts_(std::make_unique<Parts>()) {
+    parts_->quiet = quiet;
+    parts_->terminal = rewrites_lines();
     std::error_code error;
     const auto status = std::filesystem::symlink_status(file, error);
     // A link may lead to a file of somebody's, and a pipe may wait for ever.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         warn(fmt::format("{}: is no plain file; nothing is logged there", shown(file.string())));
     else if (!file.empty())
-        file_.open(file, std::ios::app);
+        parts_->file.open(file, std::ios::app);
     if (!file.empty())
-        whose_ = shown(file.parent_path().string()) + ": ";
+        parts_->whose = shown(file.parent_path().string()) + ": ";
 }
 
 Log::~Log() {
-    if (shows_progress_)
+    if (parts_->shows_progress)
         tell(clear_line);
 }
 
 void Log::say(std::string_view text) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(parts_->mutex);
     const std::string message = shown_lines(text);
     if (message.starts_with(warning_mark))
-        warnings_.push_back(message);
-    if (file_.is_open())
-        file_ << fmt::format("{:%Y-%m-%d %H:%M:%S}  {}", fmt::localtime(std::time(nullptr)),
-                             message)
-              << std::endl;
-    if (!quiet_)
-        tell(fmt::format("{}{}\n", terminal_ ? clear_line : "", message));
+        parts_->warnings.push_back(message);
+    if (parts_->file.is_open())
+        parts_->file << fmt::format("{:%Y-%m-%d %H:%M:%S}  {}", fmt::localtime(std::time(nullptr)),
+                                    message)
+                     << std::endl;
+    if (!parts_->quiet)
+        tell(fmt::format("{}{}\n", parts_->terminal ? clear_line : "", message));
     else if (message.starts_with(warning_mark))
-        tell(fmt::format("{}listric: {}{}{}\n", terminal_ ? clear_line : "", warning_mark, whose_,
-                         message.substr(warning_mark.size())));
-    shows_progress_ = false;
+        tell(fmt::format("{}listric: {}{}{}\n", parts_->terminal ? clear_line : "", warning_mark,
+                         parts_->whose, message.substr(warning_mark.size())));
+    parts_->shows_progress = false;
 }
 
 void Log::progress(std::string_view line) {
@@ -104,27 +112,27 @@ void Log::progress(std::string_view line) {
 }
 
 void Log::progress(const std::function<std::string(std::size_t columns)>& line) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(parts_->mutex);
     const double pause = // s
-        terminal_ ? 0.2 : std::clamp(0.05 * seconds_since(begun_), 10.0, 600.0);
-    if (quiet_ || (has_progressed_ && seconds_since(last_progress_) < pause))
+        parts_->terminal ? 0.2 : std::clamp(0.05 * seconds_since(parts_->begun), 10.0, 600.0);
+    if (parts_->quiet || (parts_->has_progressed && seconds_since(parts_->last_progress) < pause))
         return;
-    has_progressed_ = true;
-    last_progress_ = SteadyClock::now();
-    if (terminal_) { // the last column stays free: some wrap a line that ends in it
+    parts_->has_progressed = true;
+    parts_->last_progress = SteadyClock::now();
+    if (parts_->terminal) { // the last column stays free: some wrap a line that ends in it
         const std::size_t columns = terminal_columns() - 1;
         tell(fmt::format("{}{}", clear_line, cut_to(shown(line(columns)), columns)));
     } else {
         tell(shown(line(std::string::npos)) + "\n");
     }
-    shows_progress_ = terminal_;
+    parts_->shows_progress = parts_->terminal;
 }
 
 void Log::repeat_warnings() {
     std::vector<std::string> warnings;
     {
-        const std::lock_guard lock(mutex_);
-        warnings.swap(warnings_);
+        const std::lock_guard lock(parts_->mutex);
+        warnings.swap(parts_->warnings);
     }
     if (!warnings.empty())
         say(fmt::format("there {}:", warnings.size() == 1
@@ -132,12 +140,6 @@ void Log::repeat_warnings() {
                                          : fmt::format("were {} warnings", warnings.size())));
     for (const std::string& warning : warnings)
         say("  " + warning);
-}
-
-/// A closed or full stderr must not end a run.
-void Log::tell(std::string_view text) const {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
 }
 
 } // namespace listric

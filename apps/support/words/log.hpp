@@ -1,20 +1,13 @@
 #pragma once
 
-#include "apps/support/stopwatch.hpp"
-
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace listric {
-
-/// A duration, s, as people say it: "80 s", "2 min 40 s", "12 min", "3.4 h".
-std::string rough_duration(double seconds);
 
 /// "listric: warning: ..." on stderr, for work without a log.
 void warn(std::string_view message);
@@ -47,17 +40,8 @@ public:
     void repeat_warnings();
 
 private:
-    void tell(std::string_view text) const;
-
-    std::mutex mutex_;
-    std::ofstream file_;
-    std::string whose_; ///< the file's folder, before a warning
-    bool quiet_, terminal_;
-    bool shows_progress_ = false; ///< on the terminal's current line
-    bool has_progressed_ = false;
-    SteadyClock::time_point last_progress_; ///< that was shown
-    SteadyClock::time_point begun_ = SteadyClock::now();
-    std::vector<std::string> warnings_;
+    struct Parts; // few of those who include this see files, threads and clocks
+    std::unique_ptr<Parts> parts_;
 };
 
 /// Columns for people: as COLUMNS has them, else of the terminal that standard error or output is

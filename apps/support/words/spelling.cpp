@@ -16,12 +16,27 @@ std::string text(double number) {
     if (std::abs(number) < 1e6 || !std::isfinite(number))
         return fmt::format("{}", number);
     std::array<char, 32> buffer;
-    const auto end =
-        std::to_chars(buffer.begin(), buffer.end(), number, std::chars_format::scientific).ptr;
-    std::string text(buffer.begin(), end);
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
+                                   std::chars_format::scientific)
+                         .ptr;
+    std::string text(buffer.data(), end);
     const auto sign = text.find("e+") + 1;
     text.erase(sign, text[sign + 1] == '0' ? 2 : 1); // 1.7e+11: 1.7e11, 2e+06: 2e6
     return text;
+}
+
+std::string rough_duration(double seconds) {
+    const auto s = std::lround(std::min(seconds, 1e9));
+    if (s < 90)
+        return fmt::format("{} s", s);
+    if (s < 570) {
+        const auto tens = (s + 5) / 10;
+        return tens % 6 == 0 ? fmt::format("{} min", tens / 6)
+                             : fmt::format("{} min {} s", tens / 6, 10 * (tens % 6));
+    }
+    if (s < 5400)
+        return fmt::format("{} min", (s + 30) / 60);
+    return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
 }
 
 std::string ordinal(std::size_t number) {

@@ -11,6 +11,9 @@ namespace listric {
 /// The shortest text that reads back as the same number.
 std::string text(double number);
 
+/// A duration, s, as people say it: "80 s", "2 min 40 s", "12 min", "3.4 h".
+std::string rough_duration(double seconds);
+
 /// "second", "11th"
 std::string ordinal(std::size_t number);
 

@@ -3,6 +3,7 @@
 #include "apps/run/forecast/time_left.hpp"
 #include "apps/run/progress_line.hpp"
 #include "apps/support/words/log.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "apps/support/words/text.hpp"
 #include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"

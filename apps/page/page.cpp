@@ -1,0 +1,187 @@
+// The model for a page: texts come in, texts and numbers go out. A call returns whether it has done
+// what it should; result() is then what it found, as JSON, and otherwise why not, in the words of
+// the program.
+
+#include "apps/archive/tables/headline.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/driven_run.hpp"
+#include "apps/run/forecast/prediction.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/support/files/reading.hpp"
+#include "apps/support/stopwatch.hpp"
+#include "apps/support/version.hpp"
+#include "dem/columns.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+GivenTexts files;
+std::string input, result;
+std::vector<float> discs;
+std::optional<Scene> scene;
+std::optional<Run> run;
+
+/// Does what may fail. Memory that the page refuses ends the module instead.
+template <class Work> bool done(Work&& work) {
+    try {
+        result = work();
+        return true;
+    } catch (const std::exception& error) {
+        result = error.what();
+    } catch (...) {
+        result = "stopped";
+    }
+    return false;
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+SceneRequest request_of(const Json& asked) {
+    SceneRequest request;
+    request.scene = asked.at("scene");
+    if (asked.contains("accuracy"))
+        request.accuracy = asked["accuracy"];
+    if (asked.contains("seed"))
+        request.seed = asked["seed"].get<std::int64_t>();
+    for (const std::string assignment : asked.value("set", Json::array()))
+        request.set.push_back(assignment);
+    return request;
+}
+
+Json prediction_of(const Scene& of) {
+    const Prediction p = predict(of);
+    return {{"discs_at_start", p.discs_at_start},
+            {"discs_at_end", p.discs_at_end},
+            {"time_step_s", p.time_step},
+            {"cycles", p.cycles},
+            {"work", p.work},
+            {"memory_bytes", p.memory}};
+}
+
+Json moment() {
+    return {{"travel_m", run->state().clock.travel.m},
+            {"extension_m", run->extension()},
+            {"discs", run->state().discs.rows()},
+            {"state_hash", fmt::format("{:016x}", run->hash())}};
+}
+
+} // namespace
+
+} // namespace listric
+
+using namespace listric;
+
+#define LISTRIC_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+/// Room for the next call's input.
+LISTRIC_EXPORT(input) char* page_input(std::size_t bytes) {
+    input.resize(bytes);
+    return input.data();
+}
+LISTRIC_EXPORT(result) const char* page_result() { return result.data(); }
+LISTRIC_EXPORT(result_size) std::size_t page_result_size() { return result.size(); }
+
+/// Gives a file: the input is its path, of so many bytes, and its text.
+LISTRIC_EXPORT(give) void page_give(std::size_t path_bytes) {
+    files.give(input.substr(0, path_bytes), input.substr(path_bytes));
+}
+
+LISTRIC_EXPORT(program) bool page_program() {
+    return done([] {
+        return text_of({{"version", version}, {"sources", source_hash}, {"compiler", compiler}});
+    });
+}
+
+/// Reads a scene: the input is {scene, accuracy, seed, set}.
+LISTRIC_EXPORT(read) bool page_read() {
+    return done([] {
+        scene.reset();
+        scene = load_scene(request_of(Json::parse(input)), program_effects());
+        return text_of({{"name", scene->name},
+                        {"accuracy", scene->accuracy},
+                        {"seed", scene->seed},
+                        {"distance_m", scene->extension.distance},
+                        {"warnings", scene->warnings},
+                        {"toml", to_toml(*scene)},
+                        {"prediction", prediction_of(*scene)}});
+    });
+}
+
+/// Makes the hanging wall of the scene that was read.
+LISTRIC_EXPORT(begin) bool page_begin() {
+    return done([] {
+        run.reset();
+        run.emplace(Run::without_files(scene.value()));
+        return text_of(moment());
+    });
+}
+
+/// Extends to a goal, m, but for some seconds at most, and tells whether it has arrived.
+LISTRIC_EXPORT(extend) bool page_extend(double goal, double seconds) {
+    return done([&] {
+        const auto begun = SteadyClock::now();
+        const bool arrived =
+            run.value().extend_to(goal, [&](const Run&) { return seconds_since(begun) < seconds; });
+        Json json = moment();
+        json["arrived"] = arrived;
+        return text_of(json);
+    });
+}
+
+/// All measures by name, and those that tell runs apart as people read them.
+LISTRIC_EXPORT(measures) bool page_measures() {
+    return done([] {
+        Json numbers = Json::object(), headline = Json::array();
+        for (const auto& [name, value] : run.value().measures())
+            numbers[name] = value;
+        for (const archive::Headline& one : archive::headline_of(numbers))
+            if (one.value)
+                headline.push_back({{"name", one.name}, {"value", archive::value_text(one)}});
+        return text_of({{"headline", headline}, {"measures", numbers}});
+    });
+}
+
+/// Lines of the active faults.
+LISTRIC_EXPORT(faults) bool page_faults() {
+    return done([] {
+        Json list = Json::array();
+        for (const measures::Fault& fault : run.value().faults().faults) {
+            Json line = Json::array();
+            for (const dem::Point p : fault.trace.points)
+                line.push_back({p.x, p.y});
+            list.push_back({{"points_m", line}, {"dip_deg", fault.dip}, {"normal", fault.normal}});
+        }
+        return text_of(list);
+    });
+}
+
+/// x, y, radius, stratum, total strain and depth at the start of each disc.
+LISTRIC_EXPORT(discs) const float* page_discs() {
+    const dem::State& state = run->state();
+    const auto of = dem::disc_columns(state);
+    const auto start_y = state.discs.get(dem::columns::start_y);
+    std::span<const double> strain;
+    for (const auto& column : {dem::columns::total_strain, dem::columns::total_tectonic_strain})
+        if (state.discs.has(column.name)) // tectonic strain, where that is known
+            strain = state.discs.get(column);
+    discs.clear();
+    for (std::size_t i = 0; i < of.x.size(); ++i)
+        for (const double value :
+             {of.x[i], of.y[i], of.radius[i], static_cast<double>(of.stratum[i]),
+              strain.empty() ? 0.0 : strain[i], -start_y[i]})
+            discs.push_back(static_cast<float>(value));
+    return discs.data();
+}
