@@ -7,6 +7,7 @@
 #include "apps/run/driven_run.hpp"
 #include "apps/run/forecast/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
@@ -124,6 +125,9 @@ LISTRIC_EXPORT(read) bool page_read() {
 LISTRIC_EXPORT(begin) bool page_begin() {
     return done([] {
         run.reset();
+        if (bending_base(scene.value()))
+            throw UsageError("a base that bends needs finite elements, which a page does not have: "
+                             "run this scene with the program");
         run.emplace(Run::without_files(scene.value()));
         return text_of(moment());
     });
