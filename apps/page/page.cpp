@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,11 +34,15 @@ std::vector<float> discs;
 std::optional<Scene> scene;
 std::optional<Run> run;
 
-/// Does what may fail. Memory that the page refuses ends the module instead.
+/// Does what may fail.
 template <class Work> bool done(Work&& work) {
     try {
         result = work();
         return true;
+    } catch (const std::bad_alloc&) {
+        run.reset();
+        result =
+            "there is no memory left for a page: take larger discs, or run it with the program";
     } catch (const std::exception& error) {
         result = error.what();
     } catch (...) {
@@ -102,7 +107,9 @@ LISTRIC_EXPORT(give) void page_give(std::size_t path_bytes) {
 
 LISTRIC_EXPORT(program) bool page_program() {
     return done([] {
-        return text_of({{"version", version}, {"sources", source_hash}, {"compiler", compiler}});
+        return text_of({{"version", version},
+                        {"sources", fmt::format("{} {}", source_hash, measures_hash)},
+                        {"compiler", compiler}});
     });
 }
 

@@ -1,8 +1,8 @@
 'use strict';
 // A worker of a page, after module.js in its text. In: {load: bytes of the module}, then {check: {files, request,
-// number}}, or {start: {files, request}} and while it runs {stop: true} and {goOn: true}. Out: {read} or {failed}, of a
-// check with its number; of a run {progress}, {moment, discs}, {travel}, {stopped}, and at its end {done, faults,
-// headline, measures}.
+// number}}, or {start: {files, request}} and while it runs {stop: true} and {goOn: true}. Out: {program}; {read} or
+// {failed}, of a check with its number; of a run {progress}, {moment, discs}, {travel}, {stopped}, and in the end
+// {done, faults, headline, measures}.
 
 const slice = 0.25;           // seconds of a run between messages that are heard
 const picturesOfRun = 100;
@@ -11,7 +11,10 @@ let module = null, isStopped = false, wake = null;
 onmessage = ({data}) => {
   const failed = error => postMessage({failed: error.message, number: data.check?.number});
   const tell = (isWarning, text) => postMessage(isWarning ? {warning: text} : {progress: text});
-  if (data.load) module = startModule(data.load, tell);
+  if (data.load) {
+    module = startModule(data.load, tell);
+    module.then(model => postMessage({program: model.program()})).catch(failed);
+  }
   if (data.check)
     module.then(model => postMessage({read: readScene(model, data.check), number: data.check.number})).catch(failed);
   if (data.start) module.then(model => run(model, data.start)).catch(failed);

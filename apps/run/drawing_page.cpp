@@ -367,8 +367,10 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
         data["picture"] = picture_json(*shown);
     data["speeds"] = speeds_json(threads);
     const std::string module = module_text();
-    if (!module.empty())
+    if (!module.empty()) {
         data["files"] = files_json(scene);
+        data["sources"] = fmt::format("{} {}", source_hash, measures_hash);
+    }
     const fs::path folder = resource_folder() / "figures/draw";
     const auto joined = [&](std::initializer_list<const char*> names) {
         std::string scripts;

@@ -97,6 +97,7 @@ class PageRun(Browsed):
 
     def test_asks_nothing_of_the_network(self):
         self.wait_for("checker.verdict")
+        self.assertEqual(self.script("return $('run_state').textContent"), "")  # the model is of these sources
         self.assertIn("The program finds no fault", self.script("return $('state').textContent"))
         errors = [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(errors, [])

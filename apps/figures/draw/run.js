@@ -30,6 +30,8 @@ async function beginChecks() {
   if (!hasModule) return;
   const worker = new Worker(workerUrl);
   worker.onmessage = ({data}) => {
+    if (data.program && data.program.sources !== facts.sources)
+      tellRun(page.otherModel = `The model here is of listric ${data.program.version}, and may compute other bits. `);
     if (!data.failed && !data.read || data.number !== checker.number) return; // of something else, or of before
     checker.verdict = data.failed ? {fault: asOfFile(data.failed)} : data.read;
     showState();
@@ -66,7 +68,8 @@ async function beginRuns() {
 
 function newRun(seed, bytes) {
   const run = {seed, request: requestNow(seed), begun: performance.now(), canvas: element("canvas"),
-    words: element("p", {className: "faint"}), table: element("table")};
+    words: element("p", {className: "faint"}), table: element("table"), shape: settings(),
+    base: (page.chain || []).flatMap(segment => page.section.pointsOf(segment))};
   $("runs").append(element("figure", {}, run.canvas, element("figcaption", {}, run.words, run.table)));
   run.worker = new Worker(workerUrl);
   run.worker.onmessage = ({data}) => takeMessage(run, data);
@@ -134,13 +137,14 @@ function showRuns() {
       run.table.append(...run.headline.map(({name, value}) =>
         element("tr", {}, element("td", {}, name), element("td", {className: "number"}, value))));
   }
-  const alive = runs.filter(run => run.worker), isDone = runs.some(run => run.headline);
+  const alive = runs.filter(run => run.worker);
   $("run_stop").disabled = !alive.length;
   $("run_stop").textContent = alive.length && !alive.some(isWorking) ? "Go on" : "Stop";
   $("save_picture").disabled = !runs.some(run => run.discs);
-  $("save_run").disabled = !isDone;
-  if (isDone) tellRun(`The same run by the program: ${runs.filter(run => run.headline).map(nativeCall).join("; ")}`);
-  else if (alive.length) tellRun("");
+  $("save_run").disabled = !runs.some(run => run.headline);
+  const calls = runs.filter(run => run.headline).map(nativeCall);
+  if (calls.length) tellRun(`${page.otherModel}The same run by the program: ${calls.join("; ")}`);
+  else if (alive.length) tellRun(page.otherModel);
 }
 
 function nativeCall({seed, request}) {
@@ -161,12 +165,15 @@ function discColour(mode, strata) {
 
 function paintRun(run) {
   if (!run.discs) return;
-  const {canvas, discs, scene} = run, width = $("runs").clientWidth, {length, thickness} = settings();
+  const {canvas, discs, scene, shape: {length, thickness}} = run, width = $("runs").clientWidth;
   const scale = width / (1.02 * (length + scene.distance_m)), height = Math.round(1.25 * thickness * scale);
   const sharp = window.devicePixelRatio || 1, pen = canvas.getContext("2d");
+  const {color: ink, backgroundColor: ground} = getComputedStyle(document.body);
   canvas.width = Math.round(width * sharp);
   canvas.height = Math.round(height * sharp);
   pen.scale(sharp, sharp);
+  pen.fillStyle = ground;
+  pen.fillRect(0, 0, width, height);
   let strata = 0;
   for (let k = 0; k < discs.length; k += 6) strata = Math.max(strata, discs[k + 3]);
   const colourOf = discColour($("run_colours").value, strata);
@@ -177,13 +184,15 @@ function paintRun(run) {
     pen.arc(column(discs[k]), row(discs[k + 1]), discs[k + 2] * scale, 0, 7);
     pen.fill();
   }
-  pen.strokeStyle = vocabulary.layers.faults.ink;
-  pen.lineWidth = 1.5;
-  for (const {points_m: points} of run.faults || []) {
+  const line = (points, colour) => {
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.5;
     pen.beginPath();
     for (const [x, y] of points) pen.lineTo(column(x), row(y));
     pen.stroke();
-  }
+  };
+  line(run.base.map(({x, y}) => [x, y]), ink);
+  for (const {points_m: points} of run.faults || []) line(points, vocabulary.layers.faults.ink);
 }
 
 function saveRunPictures() {
