@@ -2,6 +2,7 @@
 // what it should; result() is then what it found, as JSON, and otherwise why not, in the words of
 // the program.
 
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/tables/headline.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/driven_run.hpp"
@@ -9,6 +10,7 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
+#include "apps/support/fineness.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "dem/columns.hpp"
@@ -78,8 +80,8 @@ Json prediction_of(const Scene& of) {
 }
 
 Json moment() {
-    return {{"travel_m", run->state().clock.travel.m},
-            {"extension_m", run->extension()},
+    return {{"travel", run->state().clock.travel.m},
+            {"extension", run->extension()},
             {"discs", run->state().discs.rows()},
             {"state_hash", fmt::format("{:016x}", run->hash())}};
 }
@@ -165,16 +167,14 @@ LISTRIC_EXPORT(measures) bool page_measures() {
     });
 }
 
-/// Lines of the active faults.
+/// The active faults, as summary.json has them.
 LISTRIC_EXPORT(faults) bool page_faults() {
     return done([] {
+        const measures::FaultReport& report = run.value().faults();
+        const double steps = fineness(run->state().mean_radius);
         Json list = Json::array();
-        for (const measures::Fault& fault : run.value().faults().faults) {
-            Json line = Json::array();
-            for (const dem::Point p : fault.trace.points)
-                line.push_back({p.x, p.y});
-            list.push_back({{"points_m", line}, {"dip_deg", fault.dip}, {"normal", fault.normal}});
-        }
+        for (std::size_t k = 0; k < report.faults.size(); ++k)
+            list.push_back(archive::fault_object({report, k, steps}, archive::fault_fields()));
         return text_of(list);
     });
 }

@@ -51,7 +51,7 @@ async function run(model, asked) {
   for (let k = 1; k <= picturesOfRun; ++k) {
     do {
       now = model.extend(scene.distance_m * k / picturesOfRun, slice);
-      postMessage({travel: now.travel_m});
+      postMessage({travel: now.travel});
       await listen();
     } while (!now.arrived);
     show();

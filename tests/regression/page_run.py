@@ -55,12 +55,13 @@ class PageRun(Browsed):
         self.wait_for("runs.every(run => run.isStopped || run.headline)")
         self.script("$('run_stop').click();")
         self.wait_for("runs.every(run => run.headline || run.failure)")
-        first, second = self.script("return runs.map(run => ({failure: run.failure, hash: run.moment.state_hash, measures: run.measures}))")
+        first, second = self.script("return runs.map(run => ({failure: run.failure, hash: run.moment.state_hash, measures: run.measures, faults: run.faults}))")
         self.assertEqual((first["failure"], second["failure"]), ("", ""))
         self.assertNotEqual(first["hash"], second["hash"])
         self.assertEqual(second["hash"], summary["state_hash"])
         for name in ("basin_area_m2", "strain_top10", "rollover_tilt_deg"):
             self.assertEqual(second["measures"].get(name), summary.get(name), name)
+        self.assertEqual(second["faults"], summary["faults"])
         self.assertIn("listric run ./short.toml --accuracy draft --seed 2", self.script("return $('run_state').textContent"))
         self.script("$('save_run').click();")
         saved = self.downloads / "short-seed-2.json"

@@ -115,14 +115,14 @@ function stopOrGoOn() {
 
 /** Seconds until the end, as the extension so far has gone; undefined: not known yet. */
 function secondsLeft(run) {
-  const done = (run.travel ?? run.moment?.travel_m ?? 0) / run.scene?.distance_m;
+  const done = (run.travel ?? run.moment?.travel ?? 0) / run.scene?.distance_m;
   return done > 0.01 ? (performance.now() - run.firstPicture) / 1000 * (1 - done) / done : undefined;
 }
 
 function wordsOf(run) {
   if (run.failure) return `Seed ${run.seed}: ${run.failure}`;
   if (!run.moment) return `Seed ${run.seed}: ${run.stage ?? "reads the scene"}`;
-  const {extension_m: extension, discs, state_hash: hash} = run.moment, left = secondsLeft(run);
+  const {extension, discs, state_hash: hash} = run.moment, left = secondsLeft(run);
   const until = !run.worker ? `, in ${duration(run.seconds)}` : run.isStopped ? ", stopped"
     : left ? `, ${duration(left)} left` : "";
   return `Seed ${run.seed}: ${placeText(extension)} of extension${until}; ${discs} discs; state_hash ${hash}`;
@@ -192,7 +192,8 @@ function paintRun(run) {
     pen.stroke();
   };
   line(run.base.map(({x, y}) => [x, y]), ink);
-  for (const {points_m: points} of run.faults || []) line(points, vocabulary.layers.faults.ink);
+  for (const {points_m: points} of run.faults || [])
+    line(points.map(([x, depth]) => [x, -depth]), vocabulary.layers.faults.ink);
 }
 
 function saveRunPictures() {
