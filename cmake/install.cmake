@@ -37,6 +37,8 @@ install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
 install(DIRECTORY apps/figures/report apps/figures/draw DESTINATION ${share}/figures COMPONENT program)
+install(DIRECTORY apps/page DESTINATION ${share} COMPONENT program
+  FILES_MATCHING PATTERN module.js PATTERN worker.js PATTERN listric.wasm.gz)
 install(FILES apps/figures/vocabulary.json DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/reference/measures.md DESTINATION ${share} COMPONENT program)
 install(DIRECTORY apps/python/listric DESTINATION ${LISTRIC_PYTHON_FOLDER} COMPONENT program

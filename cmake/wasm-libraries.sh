@@ -15,7 +15,7 @@ touch headers/sys/statvfs.h # wasm-calls.h has its content
 key=/usr/share/keyrings/debian-archive-keyring.gpg
 echo "deb-src [signed-by=$key] http://deb.debian.org/debian $VERSION_CODENAME main" >sources.list
 own_lists=(-q -o Dir::Etc::sourcelist="$folder/sources.list" -o Dir::Etc::sourceparts=/dev/null
-    -o Dir::State::lists="$folder/lists")
+    -o Dir::State::lists="$folder/lists" -o APT::Sandbox::User=root) # its user may not write here
 cd sources
 apt-get "${own_lists[@]}" update >/dev/null
 apt-get "${own_lists[@]}" source --tar-only --download-only llvm-toolchain-19 pugixml libcsv >/dev/null

@@ -1,14 +1,12 @@
 'use strict';
 // The module listric.wasm for a page, a worker or node: functions that take and give texts.
 
-/// Starts a module. `tell(isWarning, text)` is called for messages while it works.
-async function startModule(bytes, tell) {
-  let memory = null;
-  const view = () => new DataView(memory.buffer);
-  const textAt = (at, size) => new TextDecoder().decode(new Uint8Array(memory.buffer, at, size));
-  const notThere = 44, noSuchCall = 52, badFile = 8; // of WASI
-  // It has a clock, and neither files nor an environment; what goes to standard error is told.
-  const system = {
+/// What WASI asks a system for, as far as the module has one: a clock, neither files nor an environment; what goes to
+/// standard error is told. `memory()` is the module's, of which `textAt(at, size)` reads a text.
+function systemOf(memory, textAt, tell) {
+  const notThere = 44, badFile = 8; // of WASI
+  const view = () => new DataView(memory());
+  return {
     clock_time_get(id, precision, at) {
       const nanoseconds = id === 0 ? 1e6 * Date.now() : 1e6 * performance.now();
       view().setBigUint64(at, BigInt(Math.round(nanoseconds)), true);
@@ -46,6 +44,14 @@ async function startModule(bytes, tell) {
     path_filestat_get: () => notThere,
     proc_exit(code) { throw new Error(`the module ended, ${code}`); },
   };
+}
+
+/// Starts a module. `tell(isWarning, text)` is called for messages while it works.
+async function startModule(bytes, tell) {
+  let memory = null;
+  const textAt = (at, size) => new TextDecoder().decode(new Uint8Array(memory.buffer, at, size));
+  const noSuchCall = 52; // of WASI
+  const system = systemOf(() => memory.buffer, textAt, tell);
   const wasi = new Proxy(system, {get: (known, name) => known[name] || (() => noSuchCall)});
   const listric = {tell: (isWarning, at, size) => tell(Boolean(isWarning), textAt(at, size))};
   const imports = {listric};

@@ -2,12 +2,15 @@
 // what it should; result() is then what it found, as JSON, and otherwise why not, in the words of
 // the program.
 
+#include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/tables/headline.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/driven_run.hpp"
 #include "apps/run/forecast/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
+#include "apps/support/fineness.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "dem/columns.hpp"
@@ -16,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,11 +36,15 @@ std::vector<float> discs;
 std::optional<Scene> scene;
 std::optional<Run> run;
 
-/// Does what may fail. Memory that the page refuses ends the module instead.
+/// Does what may fail.
 template <class Work> bool done(Work&& work) {
     try {
         result = work();
         return true;
+    } catch (const std::bad_alloc&) {
+        run.reset();
+        result =
+            "there is no memory left for a page: take larger discs, or run it with the program";
     } catch (const std::exception& error) {
         result = error.what();
     } catch (...) {
@@ -72,8 +80,8 @@ Json prediction_of(const Scene& of) {
 }
 
 Json moment() {
-    return {{"travel_m", run->state().clock.travel.m},
-            {"extension_m", run->extension()},
+    return {{"travel", run->state().clock.travel.m},
+            {"extension", run->extension()},
             {"discs", run->state().discs.rows()},
             {"state_hash", fmt::format("{:016x}", run->hash())}};
 }
@@ -101,7 +109,9 @@ LISTRIC_EXPORT(give) void page_give(std::size_t path_bytes) {
 
 LISTRIC_EXPORT(program) bool page_program() {
     return done([] {
-        return text_of({{"version", version}, {"sources", source_hash}, {"compiler", compiler}});
+        return text_of({{"version", version},
+                        {"sources", fmt::format("{} {}", source_hash, measures_hash)},
+                        {"compiler", compiler}});
     });
 }
 
@@ -124,6 +134,9 @@ LISTRIC_EXPORT(read) bool page_read() {
 LISTRIC_EXPORT(begin) bool page_begin() {
     return done([] {
         run.reset();
+        if (bending_base(scene.value()))
+            throw UsageError("a base that bends needs finite elements, which a page does not have: "
+                             "run this scene with the program");
         run.emplace(Run::without_files(scene.value()));
         return text_of(moment());
     });
@@ -154,16 +167,14 @@ LISTRIC_EXPORT(measures) bool page_measures() {
     });
 }
 
-/// Lines of the active faults.
+/// The active faults, as summary.json has them.
 LISTRIC_EXPORT(faults) bool page_faults() {
     return done([] {
+        const measures::FaultReport& report = run.value().faults();
+        const double steps = fineness(run->state().mean_radius);
         Json list = Json::array();
-        for (const measures::Fault& fault : run.value().faults().faults) {
-            Json line = Json::array();
-            for (const dem::Point p : fault.trace.points)
-                line.push_back({p.x, p.y});
-            list.push_back({{"points_m", line}, {"dip_deg", fault.dip}, {"normal", fault.normal}});
-        }
+        for (std::size_t k = 0; k < report.faults.size(); ++k)
+            list.push_back(archive::fault_object({report, k, steps}, archive::fault_fields()));
         return text_of(list);
     });
 }

@@ -54,8 +54,6 @@ FaultFit fit_or_recall_fault(std::span<const dem::Point> points, double toleranc
 
 int usable_cores() { return 1; }
 
-LoadedPlugin load(const Plugin&) {
-    return {nullptr, "", "a page has none: run this scene with the program"};
-}
+LoadedPlugin load(const Plugin&) { return {nullptr, "", "a page has none"}; }
 
 } // namespace listric

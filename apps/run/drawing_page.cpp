@@ -320,6 +320,29 @@ std::optional<UnderPicture> picture_of(const std::optional<UnderPicture>& asked,
                : std::optional<UnderPicture>({asked->file, own.corners});
 }
 
+// --------------------------------------------------------------------------- the model in the page
+
+/// The module as apps/page makes it, compressed, in base64; empty: this program has none.
+std::string module_text() {
+    const std::string bytes = read_text_if_there(resource_folder() / "page/listric.wasm.gz");
+    return base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+}
+
+std::string worker_script() {
+    const fs::path folder = resource_folder() / "page";
+    return as_script(read_text(folder / "module.js") + read_text(folder / "worker.js"));
+}
+
+/// Texts of the rocks by the paths at which the module looks for them.
+Json files_json(const Scene& scene) {
+    Json files = Json::object();
+    for (const std::string& name : materials.names())
+        files["/listric/materials/" + name + ".toml"] = read_text(materials.find(name));
+    for (const auto& [key, file] : scene.rocks)
+        files[fs::absolute(file).lexically_normal().string()] = read_text(file);
+    return files;
+}
+
 } // namespace
 
 std::string drawing_html(const std::string& name, const std::optional<UnderPicture>& picture,
@@ -346,6 +369,11 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     if (const auto shown = picture_of(picture, scene))
         data["picture"] = picture_json(*shown);
     data["speeds"] = speeds_json(threads);
+    const std::string module = module_text();
+    if (!module.empty()) {
+        data["files"] = files_json(scene);
+        data["sources"] = fmt::format("{} {}", source_hash, measures_hash);
+    }
     const fs::path folder = resource_folder() / "figures/draw";
     const auto joined = [&](std::initializer_list<const char*> names) {
         std::string scripts;
@@ -359,9 +387,11 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
          {"vocabulary", as_data(to_text(vocabulary()))},
          {"schema", as_data(to_text(schema_of(effects)))},
          {"data", as_data(to_text(data))},
+         {"module", module},
+         {"worker", module.empty() ? "" : worker_script()},
          {"model", joined({"toml.js", "schema.js", "geometry.js", "kinematics.js", "cost.js"})},
          {"page", joined({"section.js", "forms.js", "state.js", "tables.js", "gestures.js",
-                          "files.js", "page.js"})}});
+                          "files.js", "run.js", "page.js"})}});
 }
 
 } // namespace listric

@@ -8,6 +8,7 @@
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/memory.hpp"
 #include "apps/support/version.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/numbers/hash.hpp"
 
 #include <fmt/format.h>

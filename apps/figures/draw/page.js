@@ -83,8 +83,11 @@ function addListeners() {
   $("find").addEventListener("keydown", event => { if (event.key === "Enter") find(true); });
   for (const radio of document.querySelectorAll("input[name=tool]")) radio.onchange = () => setTool(radio.value);
   addFileDrop();
+  addRunListeners();
   new ResizeObserver(() => { if (page.section.width !== page.section.host.clientWidth) showWhole(); }).observe(page.section.host);
-  window.addEventListener("beforeunload", event => { if (page.past.length && !page.saved) event.preventDefault(); });
+  window.addEventListener("beforeunload", event => {
+    if (page.past.length && !page.saved || runs.some(isWorking)) event.preventDefault();
+  });
 }
 
 function addFileDrop() {

@@ -7,7 +7,7 @@ const facts = dataOf("data"), schema = dataOf("schema");
 const page = {
   state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null, saveAs: ""},
   past: [], future: [], pictureImage: null, seconds: {},
-  tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {},
+  tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {}, otherModel: "",
 };
 
 const copyState = state => structuredClone(state);

@@ -269,13 +269,20 @@ function showReferences() {
   $("corners").textContent = `Corners: ${corners}. The saved scene has them. Later, over the run: listric figures DIR --underlay ${picture.file || picture.name}`;
 }
 
+function costText() {
+  if (!page.cost) return "";
+  return `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.`;
+}
+
 function showState() {
-  const faults = faultsNow(), box = $("state"), {lines} = page;
-  box.classList.toggle("bad", faults.length > 0);
+  const faults = faultsNow(), box = $("state"), {lines} = page, {verdict} = checker;
+  box.classList.toggle("bad", faults.length > 0 || Boolean(verdict?.fault));
   const place = path => page.fresh && lines?.has(path) ? `line ${lines.get(path)}: ` : "";
   box.textContent = faults.length
     ? faults.slice(0, 6).map(({path, message}) => `${place(path)}${path}: ${message}`).join("\n") + (faults.length > 6 ? `\nand ${faults.length - 6} more` : "")
-    : `This page finds no fault in what it tests: forms, pieces, depth and number of discs. listric check ./${baseName()}.toml decides. ${page.cost ? `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.` : ""}`;
+    : verdict?.fault ? verdict.fault
+    : verdict ? [`The program finds no fault. ${costText()}`, ...verdict.warnings].join("\n")
+    : `This page finds no fault in what it tests: forms, pieces, depth and number of discs. listric check ./${baseName()}.toml decides. ${costText()}`;
   page.forms.show(page.state.scene, faults);
   return faults;
 }
@@ -288,6 +295,7 @@ function showExtension(distance) {
 }
 
 function showAll() {
+  checkSoon();
   const {scene, picks} = page.state, {distance} = settings();
   $("title").textContent = scene.description || "Draw a section";
   $("subtitle").textContent = `${page.state.file}${page.past.length ? ", changed" : ""}; ${facts.program}`;
