@@ -8,6 +8,7 @@
 #include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -8,6 +8,7 @@
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml/toml.hpp"
 #include "apps/studies/pictured_states.hpp"
 #include "apps/studies/sweep/sweep_effects.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
@@ -21,6 +22,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iostream>
