@@ -120,9 +120,14 @@ AccuracyChoice with_seeds(AccuracyChoice choice, int seeds) {
     return choice;
 }
 
+/// Level and pace of a choice.
+std::string way_of(const AccuracyChoice& choice) {
+    return fmt::format("{}, {:g} m/s, softness {:g}", choice.level, choice.pace.speed,
+                       choice.pace.softness);
+}
+
 std::string name_of(const AccuracyChoice& choice) {
-    return fmt::format("{}, {:g} m/s, softness {:g}, {} seed{}: {}", choice.level,
-                       choice.pace.speed, choice.pace.softness, choice.seeds,
+    return fmt::format("{}, {} seed{}: {}", way_of(choice), choice.seeds,
                        choice.seeds == 1 ? "" : "s", duration(choice.seconds));
 }
 
@@ -295,8 +300,8 @@ AccuracyChoice answer_to(const AskedAccuracy& asked, std::span<const AccuracyCho
     if (!cheapest) {
         std::string text = "what is recorded stays short of it:\n";
         for (const AccuracyChoice& choice : choices)
-            text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level,
-                                choice.pace.speed, most_seeds, missed(choice, targets));
+            text += fmt::format("  {}, up to {} seeds: {}\n", way_of(choice), most_seeds,
+                                missed(choice, targets));
         throw NoAnswer(text);
     }
     if (time > 0.0 && cheapest->seconds > time)

@@ -1,7 +1,9 @@
 """A page of the program's in a real browser."""
 
+import tempfile
 import time
 import unittest
+from pathlib import Path
 
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
@@ -21,7 +23,20 @@ def browser(downloads, width=1600, height=1400):
 
 
 class Browsed(unittest.TestCase):
-    """Tests of pages in `driver`, the class's own."""
+    """Tests of pages in `driver`, the class's own, with `folder` and, for what is saved, `downloads`."""
+
+    @classmethod
+    def make_folders(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.downloads = cls.folder / "downloads"
+        cls.downloads.mkdir()
+
+    @classmethod
+    def open_browser(cls, *size):
+        cls.driver = browser(cls.downloads, *size)
+        cls.addClassCleanup(cls.driver.quit)
 
     def visit(self, address):
         """Opens a page and returns what it says of itself when it is done: "true" or "false"."""

@@ -13,16 +13,14 @@ import random
 import re
 import shutil
 import subprocess
-import tempfile
 import time
 import tomllib
 import unittest
-from pathlib import Path
 
 import jsonschema
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from browsed import Browsed, browser
+from browsed import Browsed
 from program import NO_FIGURES, SOURCES, listric
 from refused_scenes import refused_scenes
 from run_folder_test import BOX
@@ -108,16 +106,11 @@ figures_at_m = [1000.0, 5500.0]
 class Draw(Browsed):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
-        cls.downloads = cls.folder / "downloads"
-        cls.downloads.mkdir()
+        cls.make_folders()
         ended = listric("draw", cwd=cls.folder)
         assert ended.returncode == 0 and ended.stdout == "lis1-drawing.html\n", ended.stdout
         cls.page = cls.folder / "lis1-drawing.html"
-        cls.driver = browser(cls.downloads, 1200, 1000)
-        cls.addClassCleanup(cls.driver.quit)
+        cls.open_browser(1200, 1000)
 
     def open(self, file=None):
         self.assertEqual(self.visit(f"file://{file or self.page}"), "true", self.text("trouble"))

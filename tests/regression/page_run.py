@@ -5,12 +5,10 @@
 
 import json
 import re
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-from browsed import Browsed, browser
+from browsed import Browsed
 from program import SOURCES, listric
 from refused_scenes import refused_scenes
 
@@ -23,17 +21,12 @@ def without_folders(message):
 class PageRun(Browsed):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
-        cls.downloads = cls.folder / "downloads"
-        cls.downloads.mkdir()
+        cls.make_folders()
         scene = (SOURCES / "apps/scenes/lis1.toml").read_text().replace("distance_m = 10000.0", "distance_m = 500.0")
         assert "distance_m = 500.0" in scene
         (cls.folder / "short.toml").write_text(scene)
         assert listric("draw", "short.toml", cwd=cls.folder).returncode == 0
-        cls.driver = browser(cls.downloads, 1200, 1400)
-        cls.addClassCleanup(cls.driver.quit)
+        cls.open_browser(1200, 1400)
 
     def setUp(self):
         self.assertEqual(self.visit((self.folder / "short-drawing.html").as_uri()), "true")

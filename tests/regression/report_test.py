@@ -13,18 +13,16 @@ import random
 import re
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree
-from pathlib import Path
 
 import h5py
 import numpy as np
 from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from browsed import Browsed, browser
+from browsed import Browsed
 import program
 from program import NO_FIGURES, PROGRAM, SOURCES
 from run_folder_test import BOX
@@ -80,18 +78,14 @@ def counted(colours):
 class Report(Browsed):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
+        cls.make_folders()
         cls.run_folder = cls.folder / "a"
         for name, seed in (("a", "1"), ("b", "2")):
             ended = listric("run", "lis1", "--accuracy", "draft", "--seed", seed, "--set",
                             "extension.distance_m=1500", "--set", "output.figures_at_m=[1000]",
                             "--output", cls.folder / name)
             assert ended.returncode == 0, ended.stdout
-        cls.downloads = cls.folder / "downloads"
-        cls.driver = browser(cls.downloads)
-        cls.addClassCleanup(cls.driver.quit)
+        cls.open_browser()
 
     def open(self, file=None, words=""):
         return self.visit(f"file://{file or self.run_folder / 'report.html'}{words}")

@@ -171,9 +171,8 @@ std::span<const Quantity> error_fields() {
          "the runs that it is compared with"},
         {"resolution_record", "", "resolution, source", "source of these numbers"},
         {"speed", "", "of speed",
-         "mean at the speed and softness less that of the slowest recorded with the stiffest "
-         "discs; "
-         "from coarser, faster or softer runs where there are none at this level"},
+         "mean at the run's speed and softness less the mean of the slowest recorded runs with the "
+         "stiffest discs; from coarser, faster or softer runs where this level has none"},
         {"speed_against", "", "speed, compared with", "the runs that it is compared with"},
         {"speed_record", "", "speed, source", "source of these numbers"},
         {"spread", "", "between seeds", "standard deviation between seeds"},
