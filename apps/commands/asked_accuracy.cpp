@@ -131,15 +131,11 @@ std::string name_of(const AccuracyChoice& choice) {
                        choice.seeds == 1 ? "" : "s", duration(choice.seconds));
 }
 
-const AccuracyLevel& level_of(std::string_view name) {
-    return *std::ranges::find(accuracy_levels(), name, &AccuracyLevel::name);
-}
-
 /// Changes of a scene at the choice's level that make its runs as the choice's.
 std::vector<std::string> changes_of(const AccuracyChoice& choice) {
     std::vector<std::string> changes{
         fmt::format("extension.speed_m_per_s={:g}", choice.pace.speed)};
-    const AccuracyLevel& level = level_of(choice.level);
+    const AccuracyLevel& level = accuracy_level(choice.level);
     if (choice.pace.ramp != level.ramp)
         changes.push_back(fmt::format("extension.ramp_s={:g}", choice.pace.ramp));
     if (choice.pace.softness != level.softness)
@@ -408,7 +404,7 @@ std::vector<AccuracyChoice> recorded_choices(std::span<const RecordedRun> runs,
     std::vector<AccuracyChoice> choices;
     const std::string name = scene_name(request);
     for (const std::string_view level_name : levels_asked) {
-        const AccuracyLevel& level = level_of(level_name);
+        const AccuracyLevel& level = accuracy_level(level_name);
         std::vector<archive::Pace> paces;
         for (const RecordedRun& run : runs)
             if (run.scene == name && std::abs(run.mean_radius / level.mean_radius - 1.0) < 1e-3 &&

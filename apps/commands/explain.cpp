@@ -138,9 +138,7 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
         threads, threads == 1 ? "thread" : "threads", speed.team / 1e6, "accuracy", "radius, m",
         "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
-        Scene other = scene;
-        set_level(other, level);
-        const Prediction q = predict(other, speed);
+        const Prediction q = predict(at_level(scene, level), speed);
         text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12.0f} {:>9}{}\n", level.name,
                             level.mean_radius, q.discs_at_start, q.cycles, duration(q.seconds),
                             level.mean_radius == scene.hanging_wall.mean_radius ? "   <- this call"

@@ -25,6 +25,20 @@ void set_level(Scene& scene, const AccuracyLevel& level) {
     scene.cycle.softness = level.softness;
 }
 
+Scene at_level(const Scene& scene, const AccuracyLevel& level) {
+    const AccuracyLevel& own = accuracy_level(scene.accuracy);
+    AccuracyLevel kept = level;
+    if (scene.extension.speed != own.speed)
+        kept.speed = scene.extension.speed;
+    if (scene.extension.ramp != own.ramp)
+        kept.ramp = scene.extension.ramp;
+    if (scene.cycle.softness != own.softness)
+        kept.softness = scene.cycle.softness;
+    Scene other = scene;
+    set_level(other, kept);
+    return other;
+}
+
 Motion make_motion(const Scene& scene) {
     Motion motion{scene.extension.speed, scene.extension.ramp};
     const Stages* stages = scene.find<Stages>();

@@ -100,6 +100,10 @@ private:
 /// Gives a scene the level's resolution, speed and softness; its effects keep theirs.
 void set_level(Scene& scene, const AccuracyLevel& level);
 
+/// The scene at another level; it keeps a speed, slow start or softness that is not its own
+/// level's.
+Scene at_level(const Scene& scene, const AccuracyLevel& level);
+
 /// Whether a scene wants pictures at this extension (m), to half a window.
 bool is_drawn_at(const Scene& scene, double extension);
 

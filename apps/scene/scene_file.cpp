@@ -422,8 +422,7 @@ std::vector<std::string> warnings_of_never(const Scene& scene) {
 }
 
 void set_accuracy(Scene& scene) {
-    const AccuracyLevel& level =
-        *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
+    const AccuracyLevel& level = accuracy_level(scene.accuracy);
     set_level(scene, level);
     for (const EffectPart& part : scene.effects)
         if (part.effect->scale)

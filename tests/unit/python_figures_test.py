@@ -539,6 +539,14 @@ class Scales(Folder):
 
 
 class Drawing(Folder):
+    def test_a_legend_does_not_run_into_the_description(self):
+        frame = self.frame()
+        for description, labels in (("Shear strain without compaction, last 500 m of extension", 4), ("Rock", 9), ("Rock", 2)):
+            ax = plot.new_figure(8.4, 3, 50).subplots()
+            axes.describe(ax, frame, description, [(axes.swatch("#ffffff"), f"weakened rock {k}") for k in range(labels)])
+            (title,), legend = ax.texts, ax.get_legend()
+            self.assertFalse(title.get_window_extent().overlaps(legend.get_window_extent()), (description, labels))
+
     def test_depth_has_a_true_minus_and_no_minus_zero(self):
         self.assertEqual([axes.depth_text(y) for y in (-5.0, 0.0, -1e-12, 2.5)],
                          ["5", "0", "0", "−2.5"])

@@ -98,14 +98,17 @@ def describe(ax, frame: Frame, text: str, handles=()) -> None:
         for handle, label in handles:
             row.setdefault(label, handle)
         return
-    ax.annotate(text, (0, 1), (0, 5), xycoords="axes fraction",
-                textcoords="offset points", fontsize=10.5, weight="semibold",
-                va="bottom", annotation_clip=False)
-    if handles:
-        is_crowded = len(handles) > 5 or sum(len(label) for _, label in handles) > 90
-        crowded = {"fontsize": 7.5, "columnspacing": 0.9} if is_crowded else {}
-        ax.legend([h for h, _ in handles], [t for _, t in handles], ncol=len(handles),
-                  bbox_to_anchor=(1.004, 1.0), **{**LEGEND, **crowded})
+    title = ax.annotate(text, (0, 1), (0, 5), xycoords="axes fraction",
+                        textcoords="offset points", fontsize=10.5, weight="semibold",
+                        va="bottom", annotation_clip=False)
+    if not handles:
+        return
+    for smaller in ({}, {"fontsize": 7.5, "columnspacing": 0.9}):
+        legend = ax.legend([h for h, _ in handles], [t for _, t in handles], ncol=len(handles),
+                           bbox_to_anchor=(1.004, 1.0), **{**LEGEND, **smaller})
+        if legend.get_window_extent().x0 > title.get_window_extent().x1:
+            return
+    title.set_position((0, 17))     # a line of its own above the legend
 
 
 def swatch(colour: str) -> Patch:

@@ -35,15 +35,11 @@ std::vector<std::string> results_of(RunView& run) {
 
 /// The call to make next where draft, which traces few faults, has traced none; empty: another.
 std::string advice_on_faults(RunView& run) {
-    const auto level = [](std::string_view name) {
-        return *std::ranges::find(accuracy_levels(), name, &AccuracyLevel::name);
-    };
     const Scene& scene = run.scene;
     if (scene.accuracy != "draft" || !run.parts.detection_circle || !run.faults().faults.empty() ||
-        scene.hanging_wall.mean_radius != level("draft").mean_radius)
+        scene.hanging_wall.mean_radius != accuracy_level("draft").mean_radius)
         return {};
-    Scene finer = scene;
-    set_level(finer, level("standard"));
+    const Scene finer = at_level(scene, accuracy_level("standard"));
     return fmt::format(
         "draft traces few faults: run it with --accuracy standard, about {}",
         rough_duration(predict(finer).work / predict(scene).work * run.wall_seconds()));

@@ -1,5 +1,6 @@
 #include "apps/scene/parameters/accuracy.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace listric {
@@ -11,6 +12,10 @@ std::span<const AccuracyLevel> accuracy_levels() {
          {"fine", 46.55, 500.0, 1.0, 24.0, 1.0},
          {"sandbox", 18.62, 500.0, 1.0, 24.0, 1.0}}};
     return levels;
+}
+
+const AccuracyLevel& accuracy_level(std::string_view name) {
+    return *std::ranges::find(accuracy_levels(), name, &AccuracyLevel::name);
 }
 
 } // namespace listric

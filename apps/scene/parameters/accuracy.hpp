@@ -17,4 +17,7 @@ struct AccuracyLevel {
 
 std::span<const AccuracyLevel> accuracy_levels();
 
+/// The level of that name, which must be one.
+const AccuracyLevel& accuracy_level(std::string_view name);
+
 } // namespace listric

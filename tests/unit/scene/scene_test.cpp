@@ -1,6 +1,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/parameters/accuracy.hpp"
 #include "apps/scene/toml/tables.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "dem/events/bond_healing.hpp"
@@ -250,8 +251,21 @@ TEST_F(SceneTest, AccuracyLevelsSetTheRadius) {
         const Scene scene = load_scene({.scene = "lis1", .accuracy = level});
         EXPECT_EQ(scene.accuracy, level);
         EXPECT_EQ(scene.hanging_wall.mean_radius, radius);
-        EXPECT_EQ(scene.extension.ramp, ExtensionParameters{}.ramp);
+        EXPECT_EQ(scene.cycle.softness, accuracy_level(level).softness);
+        EXPECT_EQ(scene.extension.ramp, accuracy_level(level).ramp);
     }
+}
+
+TEST_F(SceneTest, KeepsAtAnotherLevelWhatIsNotItsOwnLevels) {
+    const AccuracyLevel &draft = accuracy_level("draft"), &fine = accuracy_level("fine");
+    const Scene moved = at_level(load_scene({.scene = "lis1", .accuracy = "draft"}), fine);
+    EXPECT_EQ(moved.hanging_wall.mean_radius, fine.mean_radius);
+    EXPECT_EQ(moved.cycle.softness, fine.softness);
+    EXPECT_EQ(moved.extension.ramp, fine.ramp);
+    const Scene kept = at_level(
+        load_scene({.scene = "lis1", .set = {"cycle.softness=2"}, .accuracy = "standard"}), draft);
+    EXPECT_EQ(kept.cycle.softness, 2.0);
+    EXPECT_EQ(kept.extension.speed, draft.speed);
 }
 
 TEST_F(SceneTest, DefaultThenAccuracyThenFileThenSet) {
