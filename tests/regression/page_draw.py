@@ -5,6 +5,7 @@ calls it.
 """
 
 import json
+import math
 import os
 import shutil
 import tomllib
@@ -239,9 +240,10 @@ class PageDraw(draw_test.Draw):
                 self.assertIn("bad.toml:2:", self.text("told"))
         self.assertIn("Drop it here", self.text("told"))
         points = self.folder / "fault.csv"          # as the program fits it
-        points.write_text("x_m;depth_m\n0;0\n2000;5000\n5000;8500\n9000;9990\n12000;10000\n20000;10000\n# end\n")
+        arc = [(1e4 - 1e4 * math.cos(turn), 1e4 * math.sin(turn)) for turn in (math.radians(10 * k) for k in range(10))]
+        points.write_text("x_m;depth_m\n" + "".join(f"{x};{z}\n" for x, z in [*arc, (15e3, 1e4), (2e4, 1e4)]) + "\n# end\n")
         self.read_into_page(points)
-        self.assertIn("6 points, drawn as dots. The detachment is fitted to them", self.text("told"))
+        self.assertIn("12 points, drawn as dots. The detachment is fitted to them", self.text("told"))
         self.assert_good()
         scene = self.folder / "fitted.toml"
         scene.write_text("[hanging_wall]\nlength_m = 30000.0\n[detachment]\ncsv = 'fault.csv'\n[gravity]\n")

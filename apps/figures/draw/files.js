@@ -73,7 +73,7 @@ function takeFault(name, file) {
     putShape(state, shapeOf(found));
   });
   const count = `${name}: ${found.x_m.length} points, drawn as dots.`;
-  if (found.fault) tell(`${count} Drag the nodes onto them: ${found.fault}`);
+  if (found.fault) tell(`${count} Drag the nodes onto them: ${asOfFile(found.fault)}`);
   else tell(`${count} The detachment is fitted to them, at most ${placeText(found.misfit_m)} off. Undo brings back the one before.`);
 }
 
@@ -138,9 +138,9 @@ function takeSceneFile(text, name) {
 }
 
 /** The scene with picks and picture as files beside it. */
-function sceneText() {
+function sceneText(isNamed = kind => hasPicks(kind) || page.state.asked[kind]) {
   const scene = structuredClone(page.state.scene), {asked} = page.state, shift = shiftOfPicks(), observed = {};
-  for (const kind of pickKinds) if (hasPicks(kind) || asked[kind]) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
+  for (const kind of pickKinds.filter(isNamed)) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
   if (Object.keys(observed).length && (shift || faultShift(scene))) observed.shift_x_m = shift;
   Object.assign(observed, pictureKeys());
   if (Object.keys(observed).length) scene.observed = observed;

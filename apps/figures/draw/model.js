@@ -3,9 +3,15 @@
 
 const hasModule = Boolean($("module").textContent.trim());
 
-/** The module's bytes; the page has them compressed, as text. */
+/** The module's bytes; the page has them compressed, and four as five characters (apps/run/drawing_page.cpp). */
 async function moduleBytes() {
-  const packed = Uint8Array.from(atob($("module").textContent.trim()), letter => letter.charCodeAt(0));
+  const text = $("module").textContent.trim(), bytes = new Uint8Array(4 * Math.ceil(text.length / 5)), view = new DataView(bytes.buffer);
+  for (let k = 0; k < text.length; k += 5) {
+    let word = 0;
+    for (let n = k; n < k + 5; ++n) word = 85 * word + (n >= text.length ? 84 : text[n] === "~" ? 20 : text.charCodeAt(n) - 40);
+    view.setUint32(k / 5 * 4, word);
+  }
+  const packed = bytes.subarray(0, Math.floor(0.8 * text.length));
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
@@ -27,9 +33,10 @@ function answerOf(name, value) {
   }
 }
 
-/** What the module reads in place of files, and which scene of it; at draft, where it is run and says nothing else. */
+/** What the module reads in place of files, and which scene of it; at draft, where it is run and says nothing else. Picks of a
+ * file that nobody has dropped are left out. */
 function requestNow(seed) {
-  const path = `/${baseName()}.toml`, text = page.fresh && !missingFiles().length ? page.fresh : sceneText();
+  const path = `/${baseName()}.toml`, text = page.fresh && !missingFiles().length ? page.fresh : sceneText(hasPicks);
   const files = {...facts.files, ...page.given, [path]: text};
   for (const kind of pickKinds.filter(hasPicks)) files[`/${picksFile(kind)}`] = picksText(kind);
   const {accuracy = "draft"} = page.state.scene;
@@ -42,13 +49,16 @@ function requestNow(seed) {
 function plainText(value) {
   if (Array.isArray(value)) return `[${value.map(plainText).join(", ")}]`;
   if (typeof value !== "object") return JSON.stringify(value);
-  return value.toml ?? `{${Object.entries(value).map(([key, one]) => `${JSON.stringify(key)} = ${plainText(one)}`).join(", ")}}`;
+  return value.toml ?? `{${Object.entries(value).map(([key, one]) => `${key} = ${plainText(one)}`).join(", ")}}`;
 }
 
-/** A document as TOML; without the model a table is a line. */
+/** A document as TOML; without the model, as the page was given it and changed it. */
 function textOf(document) {
   if (model) return model.ask("text", document);
-  return Object.entries(document).map(([key, value]) => `${key} = ${plainText(value)}\n`).join("");
+  const isTable = value => typeof value === "object" && !Array.isArray(value), all = Object.entries(document);
+  const lines = entries => entries.map(([key, value]) => `${key} = ${plainText(value)}\n`).join("");
+  return lines(all.filter(([, value]) => !isTable(value))) +
+    all.filter(([, value]) => isTable(value)).map(([name, table]) => `\n[${name}]\n${lines(Object.entries(table))}`).join("");
 }
 
 /** What a text in the field of a parameter stands for: {value}, {missing}, or {fault}. */
@@ -56,11 +66,11 @@ function valueOf(path, text) {
   const {type} = schemaAt(path) || {};
   text = text.trim();
   if (text === "") return {missing: true};
-  if (type === "string") text = JSON.stringify(text);
+  if (!["number", "integer", "boolean", "array"].includes(type)) text = JSON.stringify(text);
   else if (type === "array" && !text.startsWith("[")) text = `[${text}]`;
   else text = text.replace(/^\+?\./, "0.");
   if (model) return valueByModel(path, text);
-  if (!type) return {fault: "unknown key"};
+  if (!schemaAt(path)) return {fault: "unknown key"};
   try {
     return {value: JSON.parse(text)};
   } catch {
@@ -99,9 +109,9 @@ const checker = {worker: null, verdict: null, number: 0, timer: 0, waiting: []};
 async function startModel() {
   if (!hasModule) return;
   const bytes = await moduleBytes();
-  model = await startModule(bytes, () => {});
-  for (const [path, text] of Object.entries(facts.files)) model.give(path, text);
-  const {version, sources} = model.program();
+  const started = await startModule(bytes, () => {}), {version, sources} = started.program();
+  for (const [path, text] of Object.entries(facts.files)) started.give(path, text);
+  model = started;
   if (sources !== facts.sources) page.otherModel = `The model here is of listric ${version}, and may compute other bits. `;
   tellRun(page.otherModel);
   checker.worker = new Worker(workerUrl);

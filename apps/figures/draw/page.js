@@ -101,7 +101,7 @@ async function begin() {
       if (isOn) state.scene[name] ??= {};
       else delete state.scene[name];
     })});
-  await startModel();
+  await startModel().catch(error => tellRun(error.message));
   showDocument(facts.document, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
   page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
   if (window.innerWidth < 640) $("height").value = "2";

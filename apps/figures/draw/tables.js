@@ -119,7 +119,7 @@ function secondsOf({discs_at_start: discs, work, shared_work: shared}) {
 }
 
 /** Whether what the program last said is of the scene as it is now, or soon will be. */
-const isForeseen = () => hasModule ? !checker.verdict?.fault : !page.past.length;
+const isForeseen = () => model ? !checker.verdict?.fault : !page.past.length;
 
 function showCost() {
   const table = $("cost"), now = page.state.scene.accuracy ?? "standard";
@@ -287,7 +287,7 @@ function showState() {
   box.classList.toggle("bad", faults.length > 0);
   box.textContent = faults.length ? faults.map(({message}) => message).join("\n")
     : verdict ? [`The program finds no fault. ${costText()}`, ...verdict.warnings].join("\n")
-    : hasModule ? `The program reads the scene. ${costText()}`
+    : model ? `The program reads the scene. ${costText()}`
     : `This page has no model, so it tests no more than that numbers are some. listric check ./${baseName()}.toml decides. ${costText()}`;
   page.forms.show(page.state.scene, faults);
   return faults;

@@ -6,9 +6,13 @@
 #include "apps/scene/toml/json_document.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
+#include "dem/numbers/units.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace listric::drawing_test {
 
@@ -88,19 +92,22 @@ TEST(Drawing, CurvesAreThoseOfInclinedShear) {
 }
 
 TEST(Drawing, AFaultIsFittedAsASceneHasIt) {
+    std::string points = "x_m,depth_m\n";
+    for (int k = 0; k < 10; ++k) // an arc from the vertical to the flat
+        points += fmt::format("{},{}\n", 1e4 - 1e4 * std::cos(k * dem::pi / 18.0),
+                              1e4 * std::sin(k * dem::pi / 18.0));
     const GivenTexts given(
-        {{"/f.csv",
-          "x_m,depth_m\n0,0\n2000,5000\n5000,8500\n9000,9990\n12000,10000\n20000,10000\n"},
+        {{"/f.csv", points + "15000,10000\n20000,10000\n"},
          {"/two.csv", "x_m,depth_m\n0,0\n100,1900\n"},
-         {"/s.toml", "[hanging_wall]\nlength_m = 30000.0\n[detachment]\ncsv = \"f.csv\"\n"
-                     "shift_x_m = 0.0\ntolerance_m = 400.0\n"}});
-    const Json fitted = fitted_fault({{"csv", "f.csv"}, {"friction", 0.4}, {"tolerance_m", 400}},
-                                     program_effects());
-    EXPECT_EQ(fitted["x_m"].size(), 6);
+         {"/s.toml", "[hanging_wall]\nlength_m = 30000.0\n[detachment]\ncsv = \"f.csv\"\n"}});
+    const Json fitted = fitted_fault({{"csv", "f.csv"}, {"friction", 0.4}}, program_effects());
+    EXPECT_EQ(fitted["x_m"].size(), 12);
     const Scene scene = load_scene({.scene = "/s.toml"}, program_effects());
     const Json pieces = pieces_json(*scene.detachment);
     EXPECT_EQ(fitted["segments"], pieces["segments"]);
     EXPECT_EQ(fitted["start_dip_deg"], pieces["start_dip_deg"]);
+    EXPECT_LT(fitted["misfit_m"], 50.0);
+    // Fewer points than a fit needs stay points.
     const Json two = fitted_fault({{"csv", "two.csv"}}, program_effects());
     EXPECT_EQ(two["depth_m"], (Json{0.0, 1900.0}));
     EXPECT_FALSE(two["fault"].get<std::string>().empty());
