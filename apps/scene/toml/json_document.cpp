@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -121,35 +120,28 @@ Json json_of(const toml::node& node) {
 
 std::string toml_text(const Json& document, EffectList effects) {
     const std::vector<SceneTable> all = scene_tables(effects);
-    std::vector<std::tuple<std::ptrdiff_t, std::string, const Json*>> tables;
-    std::string text;
-    for (const auto& [key, value] : document.items())
-        if (is_table(value) || are_tables(value))
-            tables.emplace_back(std::ranges::find(all, key, &SceneTable::name) - all.begin(), key,
-                                &value);
-        else
-            text += entry_text(key, value, top_level());
-    std::ranges::stable_sort(tables, {}, [](const auto& table) { return std::get<0>(table); });
-    for (const auto& [number, name, value] : tables) {
-        const bool is_known = number < std::ssize(all);
-        const auto& parameters =
-            is_known ? all[static_cast<std::size_t>(number)].parameters : std::vector<Parameter>();
-        if (is_known)
-            text += fmt::format("\n# {}", all[static_cast<std::size_t>(number)].doc);
-        const std::string bare = key_text(name);
-        const std::string heading =
-            value->is_object() ? "\n[" + bare + "]\n" : "\n[[" + bare + "]]\n";
+    std::string top, tables;
+    for (const auto& [name, value] : document.items()) {
+        if (!is_table(value) && !are_tables(value)) {
+            top += entry_text(name, value, top_level());
+            continue;
+        }
+        const auto own = std::ranges::find(all, name, &SceneTable::name);
+        const bool is_known = own != all.end();
+        tables += is_known ? fmt::format("\n# {}", own->doc) : "";
+        const std::string key = key_text(name);
         const auto add = [&](const Json& table) {
-            text += heading;
-            for (const auto& [key, item] : table.items())
-                text += entry_text(key, item, parameters);
+            tables += value.is_object() ? "\n[" + key + "]\n" : "\n[[" + key + "]]\n";
+            for (const auto& [inner, item] : table.items())
+                tables +=
+                    entry_text(inner, item, is_known ? own->parameters : std::vector<Parameter>());
         };
-        if (value->is_object())
-            add(*value);
+        if (value.is_object())
+            add(value);
         else
-            std::ranges::for_each(*value, add);
+            std::ranges::for_each(value, add);
     }
-    return text;
+    return top + tables;
 }
 
 } // namespace listric

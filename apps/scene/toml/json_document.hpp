@@ -15,8 +15,7 @@ namespace listric {
 /// whole numbers beyond 2^53, inf, nan) is {"toml": its text}.
 nlohmann::ordered_json json_of(const toml::node& node);
 
-/// Such a document as the text of a scene: its top, then its tables in the order of the
-/// declarations, each with its purpose.
+/// Such a document as the text of a scene: its top, then its tables, each with its purpose.
 std::string toml_text(const nlohmann::ordered_json& document, EffectList effects);
 
 } // namespace listric

@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json document_of(const std::string& text) {
-    const GivenTexts given({{"/s.toml", text}});
+    GivenTexts given;
+    given.give("/s.toml", text);
     return scene_document({.scene = "/s.toml"}, program_effects());
 }
 
@@ -30,7 +31,8 @@ TEST(Drawing, ScenesComeBackFromThePageAsTheyWent) {
         const Json document = scene_document({.scene = name}, program_effects());
         // Through a page, whose numbers do not tell 1 from 1.0.
         const std::string text = toml_text(Json::parse(document.dump()), program_effects());
-        const GivenTexts given({{"/" + name + ".toml", text}});
+        GivenTexts given;
+        given.give("/" + name + ".toml", text);
         const Scene after = load_scene({.scene = "/" + name + ".toml"}, program_effects());
         const Scene before = load_scene({.scene = name}, program_effects());
         EXPECT_EQ(to_toml(after), to_toml(before));
@@ -45,7 +47,7 @@ TEST(Drawing, WhatNoNumberHoldsStaysText) {
     EXPECT_EQ(document["seed"]["toml"], "9223372036854775807");
     EXPECT_EQ(toml_text(document, program_effects()),
               "seed = 9223372036854775807\n\"odd key\" = [inf, 1979-05-27]\n\n"
-              "# stages of the wall's motion, each [[stage]] after the one before\n[[stage]]\n"
+              "# motion in stages: extension, pauses, shortening, one after the other\n[[stage]]\n"
               "distance_m = 1.0\n\n[[stage]]\n");
 }
 
