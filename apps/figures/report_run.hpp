@@ -21,10 +21,6 @@ struct ReportRequest {
     std::optional<Underlay> underlay = std::nullopt;
 };
 
-/// Memory in which a report keeps the moments of a run that goes on, bytes. Of more it is made
-/// anew at the end, from the snapshots.
-inline constexpr double most_of_report = 2e8;
-
 /// Which snapshots of a folder are added: every n-th, those of the figures and the last. Faults are
 /// followed back at these, or everywhere. None after there are more than so many bytes.
 struct MomentChoice {

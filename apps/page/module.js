@@ -71,6 +71,11 @@ async function startModule(bytes, tell) {
       throw new Error(text);
     return JSON.parse(text);
   };
+  /// What a function of page.cpp answers to what it is given as JSON.
+  const ask = (name, value) => {
+    put(new TextEncoder().encode(JSON.stringify(value)));
+    return call(name);
+  };
   return {
     memory: () => memory.buffer.byteLength,
     program: () => call('program'),
@@ -83,11 +88,9 @@ async function startModule(bytes, tell) {
       put(both);
       exports.give(name.length);
     },
+    ask,
     /// Reads a scene: {scene, accuracy, seed, set}.
-    read(request) {
-      put(new TextEncoder().encode(JSON.stringify(request)));
-      return call('read');
-    },
+    read: request => ask('read', request),
     begin: () => call('begin'),
     extend: (goal, seconds) => call('extend', goal, seconds),
     measures: () => call('measures'),

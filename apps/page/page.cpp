@@ -5,9 +5,10 @@
 #include "apps/archive/tables/fault_fields.hpp"
 #include "apps/archive/tables/headline.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/run/drawing.hpp"
 #include "apps/run/driven_run.hpp"
-#include "apps/run/forecast/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml/json_document.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
 #include "apps/support/fineness.hpp"
@@ -69,16 +70,6 @@ SceneRequest request_of(const Json& asked) {
     return request;
 }
 
-Json prediction_of(const Scene& of) {
-    const Prediction p = predict(of);
-    return {{"discs_at_start", p.discs_at_start},
-            {"discs_at_end", p.discs_at_end},
-            {"time_step_s", p.time_step},
-            {"cycles", p.cycles},
-            {"work", p.work},
-            {"memory_bytes", p.memory}};
-}
-
 Json moment() {
     return {{"travel", run->state().clock.travel.m},
             {"extension", run->extension()},
@@ -120,14 +111,55 @@ LISTRIC_EXPORT(read) bool page_read() {
     return done([] {
         scene.reset();
         scene = load_scene(request_of(Json::parse(input)), program_effects());
-        return text_of({{"name", scene->name},
-                        {"accuracy", scene->accuracy},
-                        {"seed", scene->seed},
-                        {"distance_m", scene->extension.distance},
-                        {"warnings", scene->warnings},
-                        {"toml", to_toml(*scene)},
-                        {"prediction", prediction_of(*scene)}});
+        return text_of(scene_facts(*scene));
     });
+}
+
+// Of a page in which a scene is drawn: apps/run/drawing.hpp.
+
+/// The input is {scene, set}, a scene as `read` takes it.
+LISTRIC_EXPORT(document) bool page_document() {
+    return done(
+        [] { return text_of(scene_document(request_of(Json::parse(input)), program_effects())); });
+}
+
+/// A document as the text of a scene.
+LISTRIC_EXPORT(text) bool page_text() {
+    return done([] { return text_of(Json(toml_text(Json::parse(input), program_effects()))); });
+}
+
+/// The input is {scene, set, path}.
+LISTRIC_EXPORT(value) bool page_value() {
+    return done([] {
+        const Json asked = Json::parse(input);
+        return text_of(value_facts(request_of(asked), asked.at("path"), program_effects()));
+    });
+}
+
+/// Picked lines of the file {file, shift_m}.
+LISTRIC_EXPORT(lines) bool page_lines() {
+    return done([] {
+        const Json asked = Json::parse(input);
+        const std::string file = asked.at("file");
+        return text_of(lines_json(read_picked_lines(file, asked.at("shift_m")).lines));
+    });
+}
+
+/// The fault that a [detachment] names.
+LISTRIC_EXPORT(fault) bool page_fault() {
+    return done([] { return text_of(fitted_fault(Json::parse(input), program_effects())); });
+}
+
+/// Whether start and pieces of a [detachment] are good.
+LISTRIC_EXPORT(pieces) bool page_pieces() {
+    return done([] {
+        check_pieces(Json::parse(input), program_effects());
+        return text_of(Json(true));
+    });
+}
+
+LISTRIC_EXPORT(kinematics) bool page_kinematics() {
+    return done([] { return text_of(kinematics_json(Json::parse(input), program_effects())); });
 }
 
 /// Makes the hanging wall of the scene that was read.

@@ -13,6 +13,31 @@ namespace listric {
 
 using namespace dem;
 
+std::string objection_to_pieces(const DetachmentParameters& detachment) {
+    if (detachment.segments.empty())
+        return "has no arc and no line, needs at least one, for example "
+               "segments = [{arc = {radius_m = 15000.0, end_dip_deg = 0.0}}]";
+    double dip = detachment.start_dip;
+    if (const auto first = detachment.segments.front().start_dip; first && *first != dip)
+        return fmt::format("does not join: the first piece has start_dip_deg = {}, but the "
+                           "detachment start_dip_deg = {}; both are the dip at the breakaway, give "
+                           "one",
+                           text(*first), text(dip));
+    for (const DetachmentSegment& segment : detachment.segments) {
+        const double start = segment.start_dip.value_or(dip);
+        const bool is_arc = segment.kind == DetachmentSegment::Kind::arc;
+        dip = is_arc ? segment.end_dip : start;
+        if (is_arc && start == dip)
+            return fmt::format("has an arc that starts and ends with a dip of {} degrees, needs an "
+                               "end_dip_deg that differs, or a line",
+                               text(dip));
+    }
+    return dip == 0.0 ? ""
+                      : fmt::format("ends with a dip of {} degrees, allowed: 0; let the last arc "
+                                    "have end_dip_deg = 0.0",
+                                    text(dip));
+}
+
 Entry entry_at(const toml::table& document, const std::string& path) {
     const toml::node* node = document.at_path(path).node();
     if (!node)
@@ -29,29 +54,8 @@ void check_detachment(const Scene& scene, const toml::table& document) {
     const double thickness = scene.hanging_wall.thickness;
     const double tolerance = std::min(1.0, 1e-3 * thickness); // m
     const Entry entry = entry_at(document, "detachment.segments");
-    if (detachment.segments.empty())
-        fail(entry, "has no arc and no line, needs at least one, for example "
-                    "segments = [{arc = {radius_m = 15000.0, end_dip_deg = 0.0}}]");
-    double dip = detachment.start_dip;
-    if (const auto first = detachment.segments.front().start_dip; first && *first != dip)
-        fail(
-            entry_at(document, "detachment.segments"),
-            fmt::format("does not join: the first piece has start_dip_deg = {}, but the detachment "
-                        "start_dip_deg = {}; both are the dip at the breakaway, give one",
-                        text(*first), text(dip)));
-    for (const DetachmentSegment& segment : detachment.segments) {
-        const double start = segment.start_dip.value_or(dip);
-        const bool is_arc = segment.kind == DetachmentSegment::Kind::arc;
-        dip = is_arc ? segment.end_dip : start;
-        if (is_arc && start == dip)
-            fail(entry, fmt::format("has an arc that starts and ends with a dip of {} degrees, "
-                                    "needs an end_dip_deg that differs, or a line",
-                                    text(dip)));
-    }
-    if (dip != 0.0)
-        fail(entry, fmt::format("ends with a dip of {} degrees, allowed: 0; let the last arc have "
-                                "end_dip_deg = 0.0",
-                                text(dip)));
+    if (const std::string why = objection_to_pieces(detachment); !why.empty())
+        fail(entry, why);
     if (scene.picked_fault)
         if (const std::string why = too_sharp(detachment, scene.hanging_wall.mean_radius);
             !why.empty()) {

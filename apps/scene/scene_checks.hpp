@@ -11,6 +11,9 @@ namespace listric {
 /// The value at a path of keys, or else its table, or else the document.
 Entry entry_at(const toml::table& document, const std::string& path);
 
+/// Why pieces are no detachment; empty: they are.
+std::string objection_to_pieces(const dem::DetachmentParameters& detachment);
+
 /// Results go into a folder of the scene's name, so it must be one. Throws SceneError.
 void check_name(const Heading& heading, const toml::table& document,
                 const std::filesystem::path& file);

@@ -429,15 +429,23 @@ void set_accuracy(Scene& scene) {
             part.effect->scale(scene, level);
 }
 
-} // namespace
+const SceneTable& table_named(const std::vector<SceneTable>& all, std::string_view name) {
+    return *std::ranges::find(all, name, &SceneTable::name);
+}
 
-// ------------------------------------------------------------------------------------- interface
+/// What is read of a scene before its parts are compared.
+struct Values {
+    toml::table document;
+    std::vector<SceneTable> all;
+    Rocks rocks; ///< looks into the document
+    Scene scene = {};
+    double shift = 0.0; ///< added to every x of the section, m
+};
 
-Scene load_scene(const SceneRequest& request, EffectList effects) {
-    const fs::path path = scenes.find(request.scene);
+Values read_values(const SceneRequest& request, const fs::path& path, EffectList effects) {
     toml::table document = merged_document(request, path);
     take_out_former_keys(document, effects);
-    const std::vector<SceneTable> all = scene_tables(effects);
+    std::vector<SceneTable> all = scene_tables(effects);
     Scene scene;
     scene.name = path.stem().string();
     begin_scene(scene, document, all);
@@ -446,17 +454,30 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path(), request.former_rocks);
     take_rocks(scene, rocks, effects);
-    const auto table_named = [&](std::string_view name) -> const SceneTable& {
-        return *std::ranges::find(all, name, &SceneTable::name);
-    };
     const double shift =
-        take_picked_fault(scene, table_named("detachment"), document, path.parent_path());
+        take_picked_fault(scene, table_named(all, "detachment"), document, path.parent_path());
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_tables(scene, table, *node);
-    for (const SceneTable& table : all)
+    return {std::move(document), std::move(all), std::move(rocks), std::move(scene), shift};
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------------- interface
+
+void check_values(const SceneRequest& request, EffectList effects) {
+    read_values(request, scenes.find(request.scene), effects);
+}
+
+Scene load_scene(const SceneRequest& request, EffectList effects) {
+    const fs::path path = scenes.find(request.scene);
+    Values values = read_values(request, path, effects);
+    Scene& scene = values.scene;
+    const toml::table& document = values.document;
+    for (const SceneTable& table : values.all)
         read_files(scene, table, document, path.parent_path());
-    drop_effects(scene, request.without, all);
+    drop_effects(scene, request.without, values.all);
     check_changes(request);
     if (!request.former_intervals)
         follow_rate(scene, document);
@@ -469,17 +490,18 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     for (std::string& warning : warnings)
         if (!warning.empty())
             scene.warnings.push_back(std::move(warning));
-    check_rocks(scene, rocks, document);
-    std::ranges::move(rocks.namesakes(), std::back_inserter(scene.warnings));
-    take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
+    check_rocks(scene, values.rocks, document);
+    std::ranges::move(values.rocks.namesakes(), std::back_inserter(scene.warnings));
+    take_observed(scene, table_named(values.all, "observed"), document, path.parent_path(),
+                  values.shift);
     if (std::string warning = scenes.namesake(request.scene, "."); !warning.empty())
         scene.warnings.push_back(std::move(warning));
     scene.files.push_back(path);
-    for (const auto& [key, file] : rocks.files()) {
+    for (const auto& [key, file] : values.rocks.files()) {
         scene.rocks.emplace(key, file);
         scene.files.push_back(file);
     }
-    return scene;
+    return std::move(values.scene);
 }
 
 std::string scene_name(const SceneRequest& request) {

@@ -14,6 +14,10 @@ namespace listric {
 /// that there are. Its name is the file's without folder and ending. Throws SceneError.
 Scene load_scene(const SceneRequest& request, EffectList effects);
 
+/// Reads the values of a scene, each by itself, as load_scene does before it compares them. Throws
+/// SceneError.
+void check_values(const SceneRequest& request, EffectList effects);
+
 /// The name of the scene that a call asks for, which is that of its folder. Throws SceneError.
 std::string scene_name(const SceneRequest& request);
 

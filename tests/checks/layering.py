@@ -54,7 +54,8 @@ FOREIGN = {
 # uses; a header hands it to all who include the header.
 HEAVY = {
     "toml++/": {"apps/scene/toml/toml.hpp"},
-    "apps/scene/toml/toml.hpp": {"apps/scene/toml/document.hpp", "apps/scene/scene_checks.hpp",
+    "apps/scene/toml/toml.hpp": {"apps/scene/toml/document.hpp", "apps/scene/toml/json_document.hpp",
+                                 "apps/scene/scene_checks.hpp",
                                  "apps/studies/plan_file.hpp"},
     # These hold a value of JSON; others do with nlohmann/json_fwd.hpp.
     "nlohmann/json.hpp": {"apps/figures/picture_order.hpp", "apps/laboratory/report.hpp", "apps/studies/plan_file.hpp",

@@ -1,19 +1,10 @@
 // Files that the page reads and writes: scenes, picks and pictures.
 
-/** Reads a scene; picks that its table names come as files of their own. */
-function readScene(text, name, picks = {horizons: [], faults: []}, faultPoints = null) {
-  let read;
-  try {
-    read = readToml(text);
-  } catch (error) {
-    if (!(error instanceof TomlError)) throw error;
-    tell(`${name}:${error.line}: ${error.message}`);
-    return false;
-  }
-  const scene = read.document, {shift, asked, lines} = takeObserved(scene);
-  page.lines = read.lines;
-  page.state = {...page.state, scene, file: name, floats: read.floats, asked: {...asked, shift}, picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}, faultPoints};
-  return true;
+/** Puts a document into the page; picks that its table names come as files of their own. */
+function showDocument(scene, name, picks = {horizons: [], faults: []}, faultPoints = null) {
+  const {shift, asked, lines} = takeObserved(scene);
+  page.state = {...page.state, scene, file: name, asked: {...asked, shift}, faultPoints,
+    picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}};
 }
 
 const pickKinds = ["horizons", "faults"];
@@ -21,16 +12,17 @@ const pickKinds = ["horizons", "faults"];
 /** What the program adds to every x of a picked fault, and of picks that have no shift of their own. */
 function faultShift(scene) { return Number(scene.detachment?.shift_x_m) || 0; }
 
-/** Takes [observed] out of a scene: lines, names of files that are asked for, the shift of both, and the picture with its place. */
+/** Takes [observed] out of a scene: lines, names of files that are asked for, the shift of both, and the picture with its place.
+ * What is none of these stays. */
 function takeObserved(scene) {
-  const observed = typeof scene.observed === "object" ? scene.observed : {};
-  const shift = Number(observed.shift_x_m ?? faultShift(scene)) || 0, asked = {};
-  const good = faultsBySchema(schema.properties.observed, observed).length === 0;
-  const lines = {horizons: good ? observed.horizon_lines || [] : [], faults: good ? observed.fault_lines || [] : []};
-  for (const kind of pickKinds) if (good && observed[kind]) asked[kind] = observed[kind];
-  if (good && observed.picture) asked.picture = {name: observed.picture, corners: observed.corners_m?.length === 4 ? observed.corners_m : null};
-  if (good) delete scene.observed;
-  return {shift, asked, lines};
+  const {horizon_lines: horizons = [], fault_lines: faults = [], picture, corners_m: corners, shift_x_m: ownShift, ...names} = scene.observed || {};
+  const areLines = list => Array.isArray(list) && list.every(line => Array.isArray(line?.x_m) && Array.isArray(line.depth_m));
+  const isGood = areLines(horizons) && areLines(faults) && Object.entries({picture: "", ...names}).every(([key, name]) =>
+    ["picture", ...pickKinds].includes(key) && typeof name === "string");
+  if (!isGood) return {shift: 0, asked: {}, lines: {horizons: [], faults: []}};
+  delete scene.observed;
+  return {shift: Number(ownShift ?? faultShift(scene)) || 0, lines: {horizons, faults},
+    asked: {...names, ...(picture ? {picture: {name: picture, corners: corners?.length === 4 ? corners : null}} : {})}};
 }
 
 function hasPicks(kind) { return page.state.picks[kind].some(line => line.x_m.length); }
@@ -48,55 +40,16 @@ function missingFiles() {
   return names;
 }
 
-/** Rows of a CSV file with a header: commas, semicolons or tabs. Each has its cells by name, and whether an empty line stands before it. */
-function readCsv(text) {
-  const rows = text.replace(/^\ufeff/, "").split(/\r\n|\n|\r/).filter(row => !row.startsWith("#"));
-  const delimiter = [";", "\t", ","].find(sign => rows.find(row => row.trim())?.includes(sign)) || ",";
-  const cells = row => row.match(new RegExp(`("([^"]|"")*"|[^${delimiter}]*)(${delimiter}|$)`, "g")).map(cell =>
-    cell.replace(new RegExp(`${delimiter}$`), "").trim().replace(/^"([\s\S]*)"$/, (_, inner) => inner.replace(/""/g, '"')));
-  const records = rows.map(cells), isEmpty = record => record.every(cell => !cell);
-  const head = records.find(record => !isEmpty(record)) || [], below = records.slice(records.indexOf(head) + 1);
-  return {head, rows: below.flatMap((record, k) => isEmpty(record) ? [] :
-    [{cells: Object.fromEntries(record.slice(0, head.length).map((cell, n) => [head[n], cell])), afterGap: k > 0 && isEmpty(below[k - 1])}])};
-}
-
-/** What tells a row's piece from others of its name, as the program has it: columns `line` and `segment`, else the block, by empty lines. */
-function piecesOf(head, rows) {
-  const labels = head.filter(name => /^(line|segment)$/i.test(name)), labelled = rows.map(row => labels.map(name => row.cells[name]).filter(Boolean).join(", "));
-  if (labelled.some(Boolean)) return labelled;
-  const isSpaced = rows.filter(row => row.afterGap).length + 1 >= rows.length;
-  let block = 0;
-  return rows.map(row => block += Number(row.afterGap && !isSpaced));
-}
-
-/** Picked lines of a CSV file. Throws Error. */
-function picksIn(text, name) {
-  const {head, rows} = readCsv(text), pieces = piecesOf(head, rows), lines = new Map(), ages = {};
-  for (const needed of ["x_m", "depth_m"])
-    if (!head.includes(needed)) throw new Error(`${name}: has no column ${needed}, ${adviceOn(needed, head)}`);
-  rows.forEach(({cells: row}, k) => {
-    const title = head.includes("name") ? row.name : "picked fault", x = Number(row.x_m), depth = Number(row.depth_m), age = row.age_a ? Number(row.age_a) : undefined;
-    if (!title || !row.x_m || !row.depth_m || !Number.isFinite(x) || !Number.isFinite(depth) || age !== undefined && !(age >= 0))
-      throw new Error(`${name}: row ${k + 2} needs a name and numbers x_m and depth_m`);
-    const key = JSON.stringify(head.includes("name") ? [title, pieces[k]] : title);
-    if (!lines.has(key)) lines.set(key, {name: title, x_m: [], depth_m: []});
-    const line = lines.get(key);
-    if (age !== undefined) ages[title] = age;
-    line.x_m.push(x);
-    line.depth_m.push(depth);
-  });
-  for (const line of lines.values()) if (line.name in ages) line.age_a = ages[line.name];
-  return {lines: [...lines.values()], hasNames: head.includes("name")};
-}
-
-function takeCsv(text, name) {
-  const {asked, scene} = page.state, {lines, hasNames} = picksIn(text, name), shift = hasNames ? asked.shift : faultShift(scene);
-  for (const line of lines) line.x_m = line.x_m.map(x => x + shift);
-  if (!hasNames) {
-    change("", state => { state.faultPoints = {x_m: lines[0].x_m, depth_m: lines[0].depth_m}; });
-    tell(`${name}: ${lines[0].x_m.length} points, drawn as dots. Drag the nodes onto them.`);
-    return;
-  }
+/** Picks of a CSV file, or the points of a fault and what is fitted to them. Of a fault that is in an SVG, the scene says where. */
+function takePicks(text, name) {
+  if (!model) throw new Error(`${name}: to read picks ${lacksModel}`);
+  const {asked, scene} = page.state, isDrawing = /\.svg$/i.test(name);
+  page.given[`/${name}`] = text;
+  model.give(`/${name}`, text);
+  const isFault = isDrawing || !/^[^#\n]*\bname\b/m.test(text) || scene.detachment?.csv?.endsWith(name);
+  if (isFault) return takeFault(name, isDrawing ? {svg: name} : {csv: name});
+  const lines = answerOf("lines", {file: `/${name}`, shift_m: asked.shift});
+  if (lines.fault) throw new Error(lines.fault);
   const kind = asked.faults && asked.faults.endsWith(name) ? "faults" : asked.horizons && asked.horizons.endsWith(name) ? "horizons"
     : /fault/i.test(name) ? "faults" : "horizons";
   change("", state => {
@@ -106,6 +59,22 @@ function takeCsv(text, name) {
   });
   setTool("picks");
   tell(`${name}: ${lines.length} ${kind}.`);
+}
+
+/** Shows a picked fault as dots, and the detachment that is fitted to them; how it is read, the scene says. */
+function takeFault(name, file) {
+  const {csv, svg, segments, start_dip_deg: dip, ...how} = page.state.scene.detachment || {};
+  const found = answerOf("fault", {...how, ...file});
+  if (!found.x_m) throw new Error(found.fault);
+  change("", state => {
+    state.faultPoints = {x_m: found.x_m, depth_m: found.depth_m};
+    if (found.fault) return;
+    state.scene.detachment = Object.fromEntries(Object.entries({...how}).filter(([key]) => !drawnElsewhere.detachment.includes(key)));
+    putShape(state, shapeOf(found));
+  });
+  const count = `${name}: ${found.x_m.length} points, drawn as dots.`;
+  if (found.fault) tell(`${count} Drag the nodes onto them: ${asOfFile(found.fault)}`);
+  else tell(`${count} The detachment is fitted to them, at most ${placeText(found.misfit_m)} off. Undo brings back the one before.`);
 }
 
 function readPicture(file) {
@@ -129,12 +98,11 @@ function takePicture(state, picture, corners) {
 }
 
 async function takeFiles(files) {
-  const order = file => /\.toml$/i.test(file.name) ? 0 : /\.csv$/i.test(file.name) ? 1 : 2;
+  const order = file => /\.toml$/i.test(file.name) ? 0 : /\.(csv|svg)$/i.test(file.name) ? 1 : 2;
   for (const file of [...files].sort((a, b) => order(a) - order(b)))
     try {
       if (order(file) === 0) takeSceneFile(await file.text(), file.name);
-      else if (order(file) === 1) takeCsv(await file.text(), file.name);
-      else if (/\.svg$/i.test(file.name)) tell(`${file.name}: a drawing is fitted by the program: listric draw my.toml with svg = "${file.name}"`);
+      else if (order(file) === 1) takePicks(await file.text(), file.name);
       else {
         const picture = await readPicture(file), asked = page.state.asked.picture;
         change("", state => takePicture(state, picture, asked?.corners));
@@ -147,15 +115,21 @@ async function takeFiles(files) {
 }
 
 function takeSceneFile(text, name) {
-  const before = copyState(page.state);
-  if (!readScene(text, name)) return;
-  const after = page.state;
-  page.state = before;
+  if (!model) return tell(`${name}: to read a scene ${lacksModel}; begin with: listric draw ${name}`);
+  const scene = `/${name}`;
+  model.give(scene, text);
+  let document;
+  try {
+    document = model.ask("document", {scene});
+  } catch (error) {
+    return tell(asOfFile(error.message));
+  }
   page.chosen = "";
   page.line = null;
   page.forms.bad.clear();
-  change("", () => { page.state = after; });
-  page.fresh = true;
+  page.now = {...page.now, in_force: {}, ...answerOf("read", {scene})};
+  change("", () => showDocument(document, name));
+  page.fresh = text;
   $("extension").value = $("extension").max;
   showAll();
   showWhole();
@@ -164,13 +138,13 @@ function takeSceneFile(text, name) {
 }
 
 /** The scene with picks and picture as files beside it. */
-function sceneText() {
+function sceneText(isNamed = kind => hasPicks(kind) || page.state.asked[kind]) {
   const scene = structuredClone(page.state.scene), {asked} = page.state, shift = shiftOfPicks(), observed = {};
-  for (const kind of pickKinds) if (hasPicks(kind) || asked[kind]) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
+  for (const kind of pickKinds.filter(isNamed)) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
   if (Object.keys(observed).length && (shift || faultShift(scene))) observed.shift_x_m = shift;
   Object.assign(observed, pictureKeys());
   if (Object.keys(observed).length) scene.observed = observed;
-  return `# Drawn with ${facts.program}.\n\n${writeToml(scene, schema)}`;
+  return `# Drawn with ${facts.program}.\n\n${textOf(scene)}`;
 }
 
 /** Where the picture lies, as [observed] has it. */
@@ -214,11 +188,13 @@ function download(name, text, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-function save() {
+async function save() {
+  tell("The program reads the scene.");
+  await verdictNow();
   const faults = showState(), missing = missingFiles(), {asked} = page.state;
   const replaced = pickKinds.filter(kind => asked[kind] && hasPicks(kind)).map(kind => `. Its ${kind} take the place of ${asked[kind]}, which was not dropped`);
-  if (faults.length) {
-    tell(`Not saved: ${faults[0].path}: ${faults[0].message}`);
+  if (faults.length && !missing.some(name => faults[0].message.includes(name))) {
+    tell(`Not saved: ${faults[0].message}`);
     $("state").scrollIntoView({block: "nearest"});
     return;
   }

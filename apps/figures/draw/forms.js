@@ -14,40 +14,18 @@ function element(name, attributes = {}, ...children) {
   return made;
 }
 
+const shortNumber = x => Math.abs(x) >= 1e6 || x !== 0 && Math.abs(x) < 1e-4 ? x.toExponential().replace("e+", "e") : String(x);
+
 const first = text => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** A number as a field shows it. */
-function fieldText(value, schema) { return typeof value === "string" && schema.type === "string" ? value : tomlValue(value, schema); }
-
-/** The value that a text in a field stands for: {value}, {missing} or {fault}. */
-function valueOf(text, schema) {
-  text = text.trim();
-  if (text === "") return {missing: true};
-  if (schema.type === "string") return {value: text};
-  try {
-    const {value, isFloat} = readTomlValue(schema.type === "array" && !text.startsWith("[") ? `[${text}]` : text.replace(/^\+?\./, "0."));
-    return {value, floats: isFloat ? new Set([""]) : new Set()};
-  } catch {
-    const comma = /^[-+]?\d+,\d+$/.test(text) ? "; a decimal point instead of the comma?" : "";
-    return {fault: `${text} is no ${schema.type === "array" ? "list of numbers, such as 5000, 10000" : schema.type || "value"}${comma}`};
-  }
-}
-
-/** The objection to a text in the field of a parameter; empty: none. */
-function objectionTo(schema, path, text) {
-  const own = schemaAt(schema, path), {value, missing, fault, floats} = valueOf(text, own);
-  if (missing) return "";
-  if (fault) return fault;
-  const check = new SchemaCheck(floats);
-  check.check(own, value, "");
-  return check.faults.length ? `${check.faults[0].path}${check.faults[0].path ? ": " : ""}${check.faults[0].message}` : "";
-}
+/** A value as a field shows it. */
+function fieldText(value) { return typeof value === "string" ? value : plainText(value); }
 
 class Forms {
   /** @param change  takes path and value (undefined: the default), to be made and kept
    *  @param toggle  takes a table's name and whether it is there */
-  constructor(host, schema, {change, toggle, defaultOf}) {
-    Object.assign(this, {host, schema, change, toggle, defaultOf, fields: new Map(), tables: new Map(), bad: new Map()});
+  constructor(host, {change, toggle}) {
+    Object.assign(this, {host, change, toggle, fields: new Map(), tables: new Map(), bad: new Map()});
     const isTable = own => own.type === "object" || own.items?.properties; // [[name]] is edited as text
     const top = Object.keys(schema.properties).filter(key => !isTable(schema.properties[key]));
     this.addTable("", "Scene", "name, accuracy and seed", top, true);
@@ -75,7 +53,7 @@ class Forms {
   }
 
   fieldOf(path) {
-    const own = schemaAt(this.schema, path), facts = own["x-listric"] || {}, key = path.split(".").at(-1), id = `at_${path}`;
+    const own = schemaAt(path), facts = own["x-listric"] || {}, key = path.split(".").at(-1), id = `at_${path}`;
     const input = this.inputOf(own, id);
     const label = element("label", {htmlFor: id}, first(facts.doc || key));
     const notes = [facts.allowed, facts.usual && `usual ${facts.usual.map(shortNumber).join(" to ")}`].filter(Boolean).join("; ");
@@ -110,19 +88,19 @@ class Forms {
     return input;
   }
 
-  /** Keeps the objection to what is typed, and shows it. */
+  /** What a text stands for; keeps the objection to it, and shows it. */
   judge(path) {
-    const {input, fault} = this.fields.get(path), why = objectionTo(this.schema, path, input.value);
+    const {input, fault} = this.fields.get(path), typed = valueOf(path, input.value), why = typed.fault ?? "";
     if (why) this.bad.set(path, why);
     else this.bad.delete(path);
     fault.textContent = why;
     input.setAttribute("aria-invalid", Boolean(why));
-    return why;
+    return typed;
   }
 
   take(path) {
-    const {input, own} = this.fields.get(path), why = this.judge(path);
-    this.change(path, why ? undefined : valueOf(input.value, own).value, why);
+    const {value, fault} = this.judge(path);
+    this.change(path, value, fault);
   }
 
   /** Whether the section decides a value: a wall is as thick as the detachment is deep. */
@@ -138,12 +116,13 @@ class Forms {
     }
     for (const [path, one] of this.fields) {
       if (this.bad.has(path)) continue;
-      const keys = path.split("."), value = keys.length === 1 ? scene[path] : scene[keys[0]]?.[keys[1]], {input, own} = one;
-      const text = value === undefined ? "" : typeof value === "boolean" ? String(value) : fieldText(value, own);
+      const value = valueIn(scene, path), {input, own} = one;
+      const text = value === undefined ? "" : fieldText(value);
       if (input.value !== text) input.value = text;
       input.readOnly = this.isDrawn(path, scene);
-      const usual = this.defaultOf(path), word = usual === undefined ? (own["x-listric"]?.default ?? "").replace(/^""$/, "") : fieldText(usual, own);
-      if (input.tagName === "SELECT") input.options[0].textContent = `${word} (default)`;
+      const isChoice = input.tagName === "SELECT", usual = isChoice ? own.default : defaultOf(path);
+      const word = usual === undefined ? (own["x-listric"]?.default ?? "").replace(/^""$/, "") : fieldText(usual);
+      if (isChoice) input.options[0].textContent = `${word} (default)`;
       else input.placeholder = word;
       one.field.classList.toggle("given", value !== undefined);
       const whole = faults.find(fault => fault.path === path);

@@ -1,5 +1,5 @@
-// The detachment as the program has it (dem/genesis/detachment.cpp, dem/base.cpp): a chain of arcs and lines from the
-// breakaway at the origin, y up, metres; and what dragging, adding and removing its nodes makes of it.
+// The detachment under the hand: a chain of arcs and lines from the breakaway at the origin, y up, metres, and what dragging,
+// adding and removing its nodes makes of it.
 
 const degree = Math.PI / 180;
 const leastTurn = 0.5;      // of an arc, degrees
@@ -32,98 +32,40 @@ function tableOf(shape) {
 
 function copyOf(shape) { return {startDip: shape.startDip, pieces: shape.pieces.map(piece => ({...piece}))}; }
 
-function lineSegment(start, end) {
-  const length = Math.hypot(end.x - start.x, end.y - start.y);
-  const t = {x: (end.x - start.x) / length, y: (end.y - start.y) / length};
-  return {start, end, startTangent: t, endTangent: t, length, curvature: 0};
+/** A point of a segment, so far along it. */
+function pointOn({start, startDip, curvature}, way) {
+  const from = -startDip * degree, to = from + way * curvature;
+  if (curvature === 0) return {x: start.x + way * Math.cos(from), y: start.y + way * Math.sin(from)};
+  return {x: start.x + (Math.sin(to) - Math.sin(from)) / curvature, y: start.y - (Math.cos(to) - Math.cos(from)) / curvature};
 }
 
-/** An arc of so many radians, counterclockwise where positive. */
-function arcSegment(start, tangent, radius, turn) {
-  const side = turn > 0 ? 1 : -1, cosine = Math.cos(turn), sine = Math.sin(turn);
-  const c = {x: start.x - side * radius * tangent.y, y: start.y + side * radius * tangent.x};
-  const from = {x: start.x - c.x, y: start.y - c.y};
-  return {start, end: {x: c.x + cosine * from.x - sine * from.y, y: c.y + sine * from.x + cosine * from.y},
-    startTangent: tangent,
-    endTangent: {x: cosine * tangent.x - sine * tangent.y, y: sine * tangent.x + cosine * tangent.y},
-    length: radius * Math.abs(turn), curvature: side / radius};
-}
-
-/** Segments end to end, continued by a flat to x = reach. Each knows its dips, degrees. */
+/** Segments end to end, continued by a flat to x = reach: {start, end, startDip, endDip, length, curvature}. */
 function chainOf(shape, reach = 0) {
-  const chain = [];
-  let start = {x: 0, y: 0}, dip = shape.startDip;
+  const chain = [], add = (startDip, endDip, length, curvature) => {
+    const segment = {start: chain.at(-1)?.end ?? {x: 0, y: 0}, startDip, endDip, length, curvature};
+    chain.push({...segment, end: pointOn(segment, length)});
+  };
+  let dip = shape.startDip;
   for (const piece of shape.pieces) {
     dip = piece.startDip ?? dip;
-    const along = {x: Math.cos(dip * degree), y: -Math.sin(dip * degree)}, startDip = dip;
-    if (piece.kind === "arc") {
-      chain.push(arcSegment(start, along, piece.radius, (dip - piece.endDip) * degree));
-      dip = piece.endDip;
-    } else {
-      chain.push(lineSegment(start, {x: start.x + piece.length * along.x, y: start.y + piece.length * along.y}));
-    }
-    Object.assign(chain.at(-1), {startDip, endDip: dip});
-    start = chain.at(-1).end;
+    const turn = piece.kind === "arc" ? (dip - piece.endDip) * degree : 0;
+    add(dip, piece.endDip ?? dip, piece.length ?? piece.radius * Math.abs(turn), Math.sign(turn) / (piece.radius ?? 1));
+    dip = chain.at(-1).endDip;
   }
-  if (start.x < reach) chain.push({...lineSegment(start, {x: reach, y: start.y}), startDip: 0, endDip: 0});
+  const {x} = chain.at(-1).end;
+  if (x < reach) add(0, 0, reach - x, 0);
   return chain;
 }
 
-function lengthOf(chain) { return chain.reduce((sum, segment) => sum + segment.length, 0); }
-
-/** The point at an arc length; before and beyond the chain, of its ends' tangents. */
-function pointAt(chain, arcLength) {
+/** The point of a chain at an arc length. */
+function pointAt(chain, way) {
   let k = 0;
-  while (k + 1 < chain.length && arcLength > chain[k].length) arcLength -= chain[k++].length;
-  const s = chain[k], t = s.startTangent;
-  if (s.curvature === 0) return {x: s.start.x + arcLength * t.x, y: s.start.y + arcLength * t.y};
-  const turn = arcLength * s.curvature, c = {x: s.start.x - t.y / s.curvature, y: s.start.y + t.x / s.curvature};
-  const from = {x: s.start.x - c.x, y: s.start.y - c.y}, cosine = Math.cos(turn), sine = Math.sin(turn);
-  return {x: c.x + cosine * from.x - sine * from.y, y: c.y + sine * from.x + cosine * from.y};
+  while (k + 1 < chain.length && way > chain[k].length) way -= chain[k++].length;
+  return pointOn(chain[k], way);
 }
 
-/** Signed distance and arc length of the nearest point of a chain, positive on its left; null where there is none. */
-function footPoint(chain, p) {
-  let best = null, before = 0;
-  const consider = (distance, arcLength) => {
-    if (!best || Math.abs(distance) < Math.abs(best.distance)) best = {distance, arcLength};
-  };
-  const dot = (ax, ay, b) => ax * b.x + ay * b.y;
-  chain.forEach((s, k) => {
-    const [dx, dy, ex, ey] = [p.x - s.start.x, p.y - s.start.y, p.x - s.end.x, p.y - s.end.y];
-    const t = s.startTangent;
-    if (dot(dx, dy, t) >= 0 && dot(ex, ey, s.endTangent) <= 0) {
-      if (s.curvature === 0) consider(t.x * dy - t.y * dx, before + dot(dx, dy, t));
-      else {
-        const c = {x: s.start.x - t.y / s.curvature, y: s.start.y + t.x / s.curvature};
-        const [rx, ry, sx, sy] = [p.x - c.x, p.y - c.y, s.start.x - c.x, s.start.y - c.y];
-        const r = Math.hypot(rx, ry), turn = Math.atan2(sx * ry - sy * rx, sx * rx + sy * ry);
-        if (r > 0) consider(Math.sign(s.curvature) * (Math.abs(1 / s.curvature) - r), before + Math.abs(turn / s.curvature));
-      }
-    }
-    before += s.length;
-    const next = chain[k + 1], distance = Math.hypot(ex, ey);
-    if (next && dot(ex, ey, s.endTangent) > 0 && dot(ex, ey, next.startTangent) < 0 && distance > 0)
-      consider((s.endTangent.x * ey - s.endTangent.y * ex < 0 ? -1 : 1) * distance, before);
-  });
-  return best;
-}
-
-/** Area between surface, detachment and moving wall, m2, summed as dem/genesis/genesis.cpp does. */
-function hangingWallArea(wallLength, chain) {
-  const pieces = 20000, length = lengthOf(chain);
-  let area = 0, a = pointAt(chain, 0);
-  for (let k = 1; k <= pieces; ++k) {
-    let b = pointAt(chain, length * k / pieces);
-    if (b.x > wallLength) {
-      const share = b.x > a.x ? Math.max(0, (wallLength - a.x) / (b.x - a.x)) : 0;
-      b = {x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y)};
-    }
-    area -= 0.5 * (a.y + b.y) * (b.x - a.x);
-    a = b;
-  }
-  return area;
-}
+/** The unit vector in which a segment begins. */
+function tangentOf({startDip}) { return {x: Math.cos(startDip * degree), y: -Math.sin(startDip * degree)}; }
 
 /** Depth of the flat, m. */
 function depthOf(shape) { return -chainOf(shape).at(-1).end.y; }
@@ -138,19 +80,10 @@ function lastSloping(shape) {
   return 0;
 }
 
-/** Why the program would refuse a shape; empty: it would not. */
-function objectionToShape(shape) {
-  if (!shape.pieces.length) return "has no arc and no line, needs at least one";
-  let dip = shape.startDip;
-  if ((shape.pieces[0].startDip ?? dip) !== dip)
-    return "does not join: the first piece has another start_dip_deg than the detachment; give one";
-  for (const piece of shape.pieces) {
-    const start = piece.startDip ?? dip;
-    dip = piece.kind === "arc" ? piece.endDip : start;
-    if (piece.kind === "arc" && start === dip)
-      return `has an arc that starts and ends with a dip of ${dip} degrees, needs an end_dip_deg that differs, or a line`;
-  }
-  return dip === 0 ? "" : `ends with a dip of ${dip} degrees, allowed: 0; let the last arc have end_dip_deg = 0.0`;
+/** Whether a hand may make a shape: every arc turns, and the last piece ends flat. */
+function isWhole(shape) {
+  const chain = chainOf(shape);
+  return chain[shape.pieces.length - 1].endDip === 0 && shape.pieces.every(({kind}, k) => kind === "line" || chain[k].startDip !== chain[k].endDip);
 }
 
 /** Bounds of the dip at which piece k ends, so that the next arc, and piece k itself, keep the way in which they turn. */
@@ -206,7 +139,7 @@ function dragNode(shape, k, target) {
 }
 
 function dragArcEnd(shape, k, segment, target, isLast) {
-  const piece = shape.pieces[k], t = segment.startTangent, a = segment.startDip, least = leastLengthOf(shape);
+  const piece = shape.pieces[k], t = tangentOf(segment), a = segment.startDip, least = leastLengthOf(shape);
   const d = {x: target.x - segment.start.x, y: target.y - segment.start.y};
   let endDip = piece.endDip;
   if (!isLast) {
@@ -245,7 +178,7 @@ function lineBounds(shape, k) {
 
 /** Dip at which a line leaves an arc's circle to reach a point; undefined: the point is within the circle. */
 function tangentDip(segment, radius, target) {
-  const side = Math.sign(segment.curvature), t = segment.startTangent;
+  const side = Math.sign(segment.curvature), t = tangentOf(segment);
   const c = {x: segment.start.x - side * radius * t.y, y: segment.start.y + side * radius * t.x};
   const d = {x: target.x - c.x, y: target.y - c.y}, square = d.x * d.x + d.y * d.y - radius * radius;
   if (square <= 0) return undefined;
@@ -306,7 +239,7 @@ function removeNode(shape, k) {
       next.pieces[n - 1].length += next.pieces[n].length;
       next.pieces.splice(n, 1);
     }
-  if (!next.pieces.length || objectionToShape(next) || !(depthOf(next) >= leastLengthOf(next))) return null;
+  if (!next.pieces.length || !isWhole(next) || !(depthOf(next) >= leastLengthOf(next))) return null;
   setDepth(next, depth);
   return next;
 }

@@ -180,8 +180,11 @@ function removeHere() {
 function doubleClick(event) {
   const k = document.elementFromPoint(event.clientX, event.clientY)?.dataset.piece; // the target is what has the pointer
   if (page.tool !== "fault" || k === undefined) return;
-  const chain = page.chain, foot = footPoint([chain[k]], page.section.at(event));
-  addHere(clamp((foot?.arcLength ?? 0.5 * chain[k].length) / chain[k].length, 0, 1), Number(k));
+  const piece = page.chain[k], at = page.section.at(event), far = share => {
+    const p = pointOn(piece, share * piece.length);
+    return Math.hypot(p.x - at.x, p.y - at.y);
+  };
+  addHere(Array.from({length: 201}, (_, n) => n / 200).reduce((a, b) => far(b) < far(a) ? b : a), Number(k));
 }
 
 function pressKey(event) {

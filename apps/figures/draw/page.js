@@ -4,27 +4,16 @@
 function find(final) {
   const text = $("find").value.trim(), [, path, value] = /^([\w.]+)\s*=\s*(.*)$/.exec(text) || [];
   const words = path ? [] : text.toLowerCase().split(/\s+/).filter(Boolean), count = page.forms.filter(words);
-  const names = [...page.forms.fields.keys()];
-  if (!text) $("found").textContent = "";
-  else if (!path) {
-    const near = nearestName(text.replace(/\s+/g, "_"), names.map(name => name.split(".").at(-1)));
-    $("found").textContent = count ? `${count} ${count === 1 ? "parameter" : "parameters"}` : `none${near ? `, did you mean ${near}?` : ""}`;
-  } else $("found").textContent = setByText(path, value, names, final);
+  if (path) $("found").textContent = setByText(path, value, final);
+  else $("found").textContent = !text ? "" : count ? `${count} ${count === 1 ? "parameter" : "parameters"}`
+    : `none; ${(model && valueOf(text.replace(/\W+/g, "_"), "0").fault) ?? ""}`;
 }
 
-function setByText(path, value, names, final) {
-  if (!names.includes(path)) {
-    const [table, key] = path.split("."), inside = names.filter(name => name.startsWith(`${table}.`)).map(name => name.slice(table.length + 1));
-    const near = inside.length ? nearestName(key || "", inside) : undefined;
-    if (near) return `unknown key, did you mean ${table}.${near}?`;
-    const tables = [...new Set(names.map(name => name.split(".")[0]))];
-    const lone = names.filter(name => nearestName(path, [name.split(".").at(-1)]));
-    return `unknown key, ${lone.length ? `did you mean ${lone.slice(0, 3).join(" or ")}?` : adviceOn(table, tables)}`;
-  }
-  const why = objectionTo(schema, path, value);
-  if (why) return why;
+function setByText(path, text, final) {
+  const {value, fault} = valueOf(path, text);
+  if (fault) return fault;
   if (!final) return "Enter sets it";
-  change("", state => setAt(state, path, valueOf(value, schemaAt(schema, path)).value));
+  change("", state => setAt(state, path, value));
   return `${path} is set`;
 }
 
@@ -106,14 +95,14 @@ function addFileDrop() {
 
 async function begin() {
   page.section = new Section($("section"));
-  page.forms = new Forms($("forms"), schema, {
+  page.forms = new Forms($("forms"), {
     change: (path, value, why) => why ? showState() : change("", state => setAt(state, path, value)),
     toggle: (name, isOn) => change("", state => {
       if (isOn) state.scene[name] ??= {};
       else delete state.scene[name];
-    }),
-    defaultOf: path => path.includes(".") ? defaultAt(facts, schema, page.state.scene, path) : schemaAt(schema, path)?.default});
-  readScene(facts.toml, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
+    })});
+  await startModel().catch(error => tellRun(error.message));
+  showDocument(facts.document, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
   page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
   if (window.innerWidth < 640) $("height").value = "2";
   page.section.view.height = Number($("height").value);

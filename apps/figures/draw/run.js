@@ -1,54 +1,5 @@
 // Runs of what is drawn, in this page: the program's own model, in a worker for each seed.
 
-const hasModule = Boolean($("module").textContent.trim());
-
-/** The module's bytes; the page has them compressed, as text. */
-async function moduleBytes() {
-  const packed = Uint8Array.from(atob($("module").textContent.trim()), letter => letter.charCodeAt(0));
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
-
-const workerUrl = hasModule && URL.createObjectURL(new Blob([$("worker").textContent], {type: "text/javascript"}));
-
-/** What the module reads in place of files, and which scene of it; at draft, where it is run and says nothing else. */
-function requestNow(seed) {
-  const path = `/${baseName()}.toml`, files = {...facts.files, [path]: sceneText()};
-  for (const kind of pickKinds.filter(hasPicks)) files[`/${picksFile(kind)}`] = picksText(kind);
-  const {accuracy = "draft"} = page.state.scene;
-  return {files, request: {scene: path, ...(seed === undefined ? {} : {accuracy, seed})}};
-}
-
-/** A message of the module as it reads beside the file that will be saved. */
-function asOfFile(message) { return message.replace(/^\/(?=[^/\s]+\.(toml|csv):)/, ""); }
-
-// -- checks
-
-/** A worker that reads the scene after changes, and what it has said of the last one: null until then. */
-const checker = {worker: null, verdict: null, number: 0, timer: 0};
-
-async function beginChecks() {
-  if (!hasModule) return;
-  const worker = new Worker(workerUrl);
-  worker.onmessage = ({data}) => {
-    if (data.program && data.program.sources !== facts.sources)
-      tellRun(page.otherModel = `The model here is of listric ${data.program.version}, and may compute other bits. `);
-    if (!data.failed && !data.read || data.number !== checker.number) return; // of something else, or of before
-    checker.verdict = data.failed ? {fault: asOfFile(data.failed)} : data.read;
-    showState();
-  };
-  worker.postMessage({load: await moduleBytes()});
-  checker.worker = worker;
-  checkSoon();
-}
-
-function checkSoon() {
-  checker.verdict = null;
-  const number = ++checker.number;
-  clearTimeout(checker.timer);
-  if (checker.worker)
-    checker.timer = setTimeout(() => checker.worker.postMessage({check: {...requestNow(), number}}), 300);
-}
-
 // -- runs
 
 const runs = [];
@@ -58,7 +9,7 @@ async function beginRuns() {
   for (const run of runs) run.worker?.terminate();
   runs.length = 0;
   const faults = showState();
-  if (faults.length) return tellRun(`${faults[0].path}: ${faults[0].message}`);
+  if (faults.length) return tellRun(faults[0].message);
   const first = Number(page.state.scene.seed ?? 1), count = clamp(Math.round(Number($("seeds").value)) || 1, 1, 8);
   const bytes = await moduleBytes();
   $("runs").replaceChildren();
@@ -219,5 +170,4 @@ function addRunListeners() {
   $("save_picture").onclick = saveRunPictures;
   $("save_run").onclick = saveRun;
   showRuns();
-  beginChecks().catch(error => tellRun(error.message));
 }

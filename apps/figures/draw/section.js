@@ -18,7 +18,7 @@ function strataColours(count) {
   return Array.from({length: count}, (_, k) => `#${rows.slice(6 * Math.round(255 * k / Math.max(count - 1, 1))).slice(0, 6)}`);
 }
 
-const strataCount = 8;
+const strataCount = 8; // as many as the program draws
 
 class Section {
   constructor(host) {
@@ -90,7 +90,7 @@ class Section {
   /** Arcs as points that are a pixel off at most. */
   pointsOf(segment) {
     const steps = segment.curvature ? clamp(Math.ceil(Math.abs(segment.length * segment.curvature) / 0.03), 2, 60) : 1;
-    return Array.from({length: steps + 1}, (_, k) => pointAt([segment], segment.length * k / steps));
+    return Array.from({length: steps + 1}, (_, k) => pointOn(segment, segment.length * k / steps));
   }
 
   drawAxes(length) {
@@ -123,10 +123,10 @@ class Section {
     this.axis.setAttribute("d", `${d}M${this.px(0, 0)[0].toFixed(1)},${ground.toFixed(1)}H${this.px(length, 0)[0].toFixed(1)}`);
   }
 
-  /** Detachment, rock on both sides of it, and the preview. */
-  drawModel({chain, shape, fault, length, extension, angle, preview, chosen}) {
+  /** Detachment, rock on both sides of it, and the basin that kinematics predicts, if it does. */
+  drawModel({chain, shape, length, extension, basin, chosen}) {
     const line = chain.flatMap(segment => this.pointsOf(segment)), bottom = this.metres(0, this.height + 10).y;
-    const left = this.metres(-10, 0).x, wall = length + (preview ? extension : 0), right = this.metres(this.width + 10, 0).x;
+    const left = this.metres(-10, 0).x, wall = length + (shape ? extension : 0), right = this.metres(this.width + 10, 0).x;
     this.fault.setAttribute("d", this.path(line));
     this.footwall.setAttribute("d", this.path([{x: left, y: 0}, {x: 0, y: 0}, ...line, {x: right, y: line.at(-1).y}, {x: right, y: bottom}, {x: left, y: bottom}], true));
     const under = line.filter(p => p.x < wall), end = under.length < line.length ? under.at(-1)?.y ?? 0 : line.at(-1).y;
@@ -140,42 +140,29 @@ class Section {
       hit.dataset.piece = k;
       hit.setAttribute("d", this.path(this.pointsOf(chain[k])));
     });
-    this.drawPreview(preview && extension > 0 ? {chain, fault, extension, angle, wall} : null);
+    this.drawBasin(basin, chain, extension, wall);
   }
 
   /** Nothing of a model, where a scene has no base that can be drawn. */
   clear() {
     for (const path of [this.fault, this.footwall, this.rock, this.wall, this.chosen]) path.setAttribute("d", "");
     this.hits.textContent = "";
-    this.drawPreview(null);
+    this.drawBasin(null);
   }
 
   /** Sediment that kept the basin full, in strata of equal age, and the pre-rift top. */
-  drawPreview(basin) {
+  drawBasin(basin, chain, extension, wall) {
     if (!basin) {
       for (const path of [...this.strata, this.pre, this.top]) path.setAttribute("d", "");
       return;
     }
-    const {chain, fault, extension, angle, wall} = basin, pixels = page.drag?.key ? 6 : 3, step = Math.max(spacingOf(chain), pixels / this.view.scale);
-    const exposed = slip => this.pointsOfChain(chain, slip);
-    let below = null;
-    for (let k = 0; k <= strataCount; ++k) {
-      const slip = extension * (1 - k / strataCount);
-      const before = exposed(slip), top = k === strataCount ? [{x: 0, y: 0}, {x: wall, y: 0}] : [...before, ...inclinedShearTop(chain, slip, angle, wall, fault, step)];
-      if (k > 0) this.strata[k - 1].setAttribute("d", this.path(below, true, top));
-      else this.top.setAttribute("d", this.path(top.slice(before.length)));
-      below = top;
-    }
-    const depth = -chain.at(-1).end.y;
-    this.pre.setAttribute("d", [0.2, 0.4, 0.6, 0.8].map(share =>
-      this.path(inclinedShearLayer(extension, angle, wall, fault, share * depth, 4 * step))).join(""));
-  }
-
-  /** The detachment from the breakaway to an arc length. */
-  pointsOfChain(chain, end) {
-    const step = Math.max(end / 40, spacingOf(chain)), points = [];
-    for (let s = 0; s < end; s += step) points.push(pointAt(chain, s));
-    return points;
+    const curve = numbers => Array.from({length: numbers.length / 2}, (_, k) =>
+      ({x: basin.unit_m * numbers[2 * k], y: basin.unit_m * numbers[2 * k + 1]}));
+    const exposed = way => Array.from({length: 41}, (_, k) => pointAt(chain, way * k / 40));
+    const tops = basin.tops.map((numbers, k) => [...exposed(extension * (1 - k / strataCount)), ...curve(numbers)]);
+    [...tops.slice(1), [{x: 0, y: 0}, {x: wall, y: 0}]].forEach((top, k) => this.strata[k].setAttribute("d", this.path(tops[k], true, top)));
+    this.top.setAttribute("d", this.path(curve(basin.tops[0])));
+    this.pre.setAttribute("d", basin.layers.map(numbers => this.path(curve(numbers))).join(""));
   }
 
   drawPicture(picture, opacity) {

@@ -2,16 +2,26 @@
 
 const facts = dataOf("data"), schema = dataOf("schema");
 
-/** A state is what undo goes back to: the scene's document with its file's name, the paths of numbers that were written as
- * floats and the files that it names; picks, where the picture is, and the name to save it by, if one was typed. */
+/** A state is what undo goes back to: the scene's document with its file's name and the files that it names; picks, where the
+ * picture is, and the name to save it by, if one was typed. `now` is what the program last said of the scene. */
 const page = {
-  state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null, saveAs: ""},
-  past: [], future: [], pictureImage: null, seconds: {},
+  state: {scene: {}, file: "", asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null, saveAs: ""},
+  past: [], future: [], pictureImage: null, now: facts.now, given: {}, seconds: {},
   tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {}, otherModel: "",
 };
 
 const copyState = state => structuredClone(state);
 const shapeNow = () => shapeOf(page.state.scene.detachment);
+
+/** The schema of a value at a path of table and key; undefined: there is none. */
+function schemaAt(path) { return path.split(".").reduce((at, key) => at?.properties?.[key], schema); }
+
+const valueIn = (document, path) => path.split(".").reduce((at, key) => at?.[key], document);
+
+/** What a parameter is in force with where the scene does not give it. */
+function defaultOf(path) { return valueIn(page.now.in_force, path) ?? schemaAt(path)?.default; }
+
+const valueAt = path => valueIn(page.state.scene, path) ?? defaultOf(path);
 
 /** Unit in which the page tells places, by the length of the hanging wall. */
 function lengthUnit() {
@@ -50,8 +60,7 @@ function travel(from, to) {
   showAll();
 }
 
-function setAt({scene, floats}, path, value) {
-  floats.delete(path);
+function setAt({scene}, path, value) {
   const [table, key] = path.includes(".") ? path.split(".") : [null, path], inside = table ? scene[table] ??= {} : scene;
   if (value === undefined) delete inside[key];
   else inside[key] = value;
@@ -67,7 +76,7 @@ function putShape(state, shape) {
 /** A shape that a node's change made, at the depth that is kept if so asked. */
 function atKeptDepth(before, after) {
   if ($("keep_depth").checked && !setDepth(after, depthOf(before))) return before;
-  return objectionToShape(after) ? before : after;
+  return isWhole(after) ? after : before;
 }
 
 function changeShape(kind, make) {
@@ -76,15 +85,6 @@ function changeShape(kind, make) {
   const after = make(before);
   if (after) change(kind, state => putShape(state, atKeptDepth(before, after)));
   else tell("That is not possible here: pieces would be too short, or the detachment would not end flat.");
-}
-
-// -- faults
-
-function faultsNow() {
-  const {scene, floats} = page.state, found = faultsBySchema(schema, scene, floats);
-  const all = found.length ? found : faultsOfWhole(facts, schema, scene);
-  const typed = [...page.forms.bad].map(([path, message]) => ({path, message}));
-  return [...typed, ...all.filter(fault => !page.forms.bad.has(fault.path))];
 }
 
 function tell(text) { $("told").textContent = text; }

@@ -1,25 +1,27 @@
 // What the page shows beside its forms: the section, tables of pieces, picks and cost, and what is wrong.
 
+/** What the section is drawn by, m; distance: the greatest displacement of the moving wall. */
 function settings() {
-  const {scene} = page.state, of = path => Number(valueAt(facts, schema, scene, path));
-  return {length: of("hanging_wall.length_m"), thickness: of("hanging_wall.thickness_m"), distance: greatestExtension(facts, schema, scene)};
+  const of = path => Number(valueAt(path));
+  return {length: of("hanging_wall.length_m"), thickness: of("hanging_wall.thickness_m"),
+    distance: page.state.scene.stage ? page.now.greatest_extension_m : of("extension.distance_m")};
 }
 
 /** Draws the section as it is now; forms and tables stay as they are. */
 function showSection() {
-  const {scene, picks, faultPoints} = page.state, {length, distance} = settings(), section = page.section, shape = shapeNow();
-  const good = Boolean(shape) && Number.isFinite(chainOf(shape).at(-1).end.x);
-  const chain = (shape ? good && chainOf(shape, 1.5 * (length + 2 * distance)) : baseOf(facts, schema, scene)) || null, angle = Number($("angle").value);
-  const fault = good ? new ShearCoordinate(chain, Math.tan(angle * degree)) : null;
+  const {scene, picks, faultPoints} = page.state, {length, thickness, distance} = settings(), section = page.section;
+  const drawn = shapeNow(), shape = drawn && Number.isFinite(chainOf(drawn).at(-1).end.x) ? drawn : null;
+  const reach = 1.5 * (length + 2 * distance), flat = {start: {x: 0, y: -thickness}, end: {x: reach, y: -thickness}, startDip: 0, endDip: 0, length: reach, curvature: 0};
+  const chain = shape ? chainOf(shape, reach) : scene.stretching ? [flat] : null;
+  const basin = shape && isWhole(shape) ? kinematicsOf(shape, length, page.extension) : null;
   page.chain = chain;
   section.drawPicture(pictureNow(), Number($("opacity").value));
-  if (chain) section.drawModel({chain, shape: good ? shape : null, fault, length, extension: page.extension, angle,
-    preview: Boolean(good), chosen: page.tool === "fault" ? nodeOf(page.chosen) : -1});
+  if (chain) section.drawModel({chain, shape, length, extension: page.extension, basin, chosen: page.tool === "fault" ? nodeOf(page.chosen) : -1});
   else section.clear();
   section.drawAxes(length);
   section.drawPicks(picks, faultPoints);
-  section.drawHandles(handlesNow(good ? shape : null, chain), page.chosen);
-  if (good) showKinematics(chain, length, angle, fault);
+  section.drawHandles(handlesNow(shape, chain), page.chosen);
+  showKinematics(basin);
 }
 
 const nodeOf = key => key.startsWith("node ") ? Number(key.slice(5)) : -1;
@@ -35,7 +37,7 @@ function handlesNow(shape, chain) {
   const handles = [];
   const turn = k => {
     const s = chain[k], reach = 64 / page.section.view.scale / Math.max(1, page.section.view.height * Math.sin(s.startDip * degree));
-    handles.push({key: `turn ${k}`, kind: "turn", x: s.start.x + reach * s.startTangent.x, y: s.start.y + reach * s.startTangent.y,
+    handles.push({key: `turn ${k}`, kind: "turn", x: s.start.x + reach * tangentOf(s).x, y: s.start.y + reach * tangentOf(s).y,
       from: s.start, label: `Dip ${k ? `at the kink before piece ${k + 1}` : "at the breakaway"}: ${s.startDip.toFixed(1)} degrees`});
   };
   shape.pieces.forEach((piece, k) => {
@@ -79,14 +81,12 @@ function tellChosen() {
   } else tell(page.state.scene.stretching ? "This scene has a flat base that stretches: there is no detachment to draw." : "");
 }
 
-function showKinematics(chain, length, angle, fault) {
+function showKinematics(found) {
   const {extension} = page, {name: unit, metres} = lengthUnit();
   $("extension_told").textContent = placeText(extension, 1);
   $("extension").setAttribute("aria-valuetext", placeText(extension, 1));
-  $("angle_told").textContent = `${angle}°`;
-  const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension, fault) : null;
-  page.kinematics = found;
-  const rows = [["Tilt of the head block", found?.tilt != null ? `${found.tilt.toFixed(1)}°` : "-"],
+  $("angle_told").textContent = `${$("angle").value}°`;
+  const rows = [["Tilt of the head block", found?.tilt !== undefined ? `${found.tilt.toFixed(1)}°` : "-"],
     ["Cutoff of the head block", found?.cutoff ? `x ${placeText(found.cutoff.x)}, depth ${placeText(found.cutoff.depth)}` : "-"],
     ["Deepest drawn basin", found ? `${placeText(found.deepest.depth)} at x ${placeText(found.deepest.x)}` : "-"],
     ["Area of the basin", found ? `${(found.area / metres ** 2).toFixed(1)} ${unit}²` : "-"]];
@@ -111,30 +111,37 @@ function keepRows(table, signature, make) {
 const headOf = names => element("tr", {}, ...names.map(text => element("th", {}, text)));
 const cells = count => Array.from({length: count}, () => element("td", {className: "number"}));
 
+/** Time on the machine that wrote the page: at the speed of the packing that is nearest in size. */
+function secondsOf({discs_at_start: discs, work, shared_work: shared}) {
+  const {by_size: sizes, accounted} = facts.speeds, far = ({discs: other}) => Math.abs(Math.log(other / discs));
+  const speed = page.now.accounts_energy ? accounted : sizes.reduce((a, b) => far(b) < far(a) ? b : a);
+  return shared / speed.team + (work - shared) / speed.one_thread;
+}
+
+/** Whether what the program last said is of the scene as it is now, or soon will be. */
+const isForeseen = () => model ? !checker.verdict?.fault : !page.past.length;
+
 function showCost() {
-  const {scene} = page.state, table = $("cost"), now = scene.accuracy ?? "standard";
-  keepRows(table, "levels", () => [headOf(["Accuracy", "Radius", "Discs", "At the end", "Time"]), ...facts.levels.map(({name}) => {
+  const table = $("cost"), now = page.state.scene.accuracy ?? "standard";
+  keepRows(table, "levels", () => [headOf(["Accuracy", "Radius", "Discs", "At the end", "Time"]), ...facts.now.levels.map(({name}) => {
     const radio = element("input", {type: "radio", name: "accuracy", value: name});
     radio.onchange = () => change("", state => { state.scene.accuracy = name; });
     return element("tr", {}, element("td", {}, element("label", {}, radio, ` ${name}`)), ...cells(4));
   })]);
-  facts.levels.forEach((level, k) => {
-    const here = level.name === now, row = table.rows[k + 1], other = structuredClone(scene);
-    other.accuracy = level.name;
-    for (const [table, key] of Object.keys(level.defaults).map(path => path.split(".")))
-      if (!here) delete other[table]?.[key];
-    const cost = page.chain ? predictCost(facts, schema, other) : null;
-    page.seconds[level.name] = cost?.seconds;
-    const radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
-    if (here) page.cost = cost;
-    row.className = here ? "chosen" : "";
-    row.querySelector("input").checked = here;
-    const numbers = cost ? [about.format(cost.discs), about.format(cost.discsAtEnd), duration(cost.seconds)] : ["-", "-", "-"];
-    [`${Number(radius.toPrecision(4))} m`, ...numbers].forEach((text, column) => { row.cells[column + 1].textContent = text; });
+  page.seconds = {};
+  page.now.levels.forEach(({name, radius_m: radius, prediction}, k) => {
+    const row = table.rows[k + 1], cost = isForeseen() ? prediction : null;
+    row.className = name === now ? "chosen" : "";
+    row.querySelector("input").checked = name === now;
+    if (cost) page.seconds[name] = secondsOf(cost);
+    const numbers = cost ? [`${Number(radius.toPrecision(4))} m`, about.format(cost.discs_at_start), about.format(cost.discs_at_end),
+      duration(page.seconds[name])] : ["-", "-", "-", "-"];
+    numbers.forEach((text, column) => { row.cells[column + 1].textContent = text; });
+    if (name === now) page.cost = cost;
   });
-  const threads = facts.speeds.threads, speed = speedAt(facts.speeds, page.cost?.discs ?? 1e4, false).team / 1e6;
+  const {threads, by_size: [, {team}]} = facts.speeds;
   $("cost_note").textContent = `On the machine that wrote this page, with ${threads} ${threads === 1 ? "thread" : "threads"} when nothing else runs ` +
-    `(${about.format(speed)} million disc-steps per second). Elsewhere: listric explain.`;
+    `(${about.format(team / 1e6)} million disc-steps per second). Elsewhere: listric explain.`;
 }
 
 function showPieces() {
@@ -183,11 +190,12 @@ function rowOfPiece(piece, k, last) {
 
 /** A number that is typed into the table of pieces. */
 function typePiece(input, k, make) {
-  const {value, fault} = valueOf(input.value, {type: "number"}), next = copyOf(shapeNow());
-  if (!fault && value !== undefined) make(next, Number(value));
-  const faults = fault ? [{message: fault}] : faultsBySchema(schema.properties.detachment, tableOf(next)), why = faults[0]?.message || objectionToShape(next);
-  input.setAttribute("aria-invalid", Boolean(why || value === undefined));
-  if (why || value === undefined) tell(`Piece ${k + 1}: ${why || "a number is missing"}.`);
+  const value = numberOf(input.value), next = copyOf(shapeNow());
+  if (value !== undefined) make(next, value);
+  const why = value === undefined ? "a number is missing" : model ? answerOf("pieces", tableOf(next)).fault
+    : isWhole(next) ? "" : "every arc has to turn, and the last piece to end flat";
+  input.setAttribute("aria-invalid", Boolean(why));
+  if (why) tell(`Piece ${k + 1}: ${why}.`);
   else change("", state => putShape(state, next));
 }
 
@@ -235,9 +243,9 @@ function nameLine(state, kind, index, name) {
 }
 
 function ageLine(state, kind, index, input) {
-  const {value, missing} = valueOf(input.value, {type: "number"}), age = Number(value) * 1e6;
+  const age = numberOf(input.value) * 1e6;
   const all = state.picks[kind].filter(line => line.name === state.picks[kind][index].name);
-  if (missing) for (const line of all) delete line.age_a;
+  if (!input.value.trim()) for (const line of all) delete line.age_a;
   else if (age >= 0 && age <= 1e10) for (const line of all) line.age_a = age;
   else {
     input.setAttribute("aria-invalid", true);
@@ -258,9 +266,9 @@ function showReferences() {
   if (!host.childNodes.length) host.append(...[0, 1].flatMap(k => ["x", "depth"].map(key => {
     const input = element("input", {type: "text", inputMode: "decimal", size: 8, id: `reference_${"ab"[k]}_${key}`});
     input.onchange = () => {
-      const {value} = valueOf(input.value, {type: "number"});
-      input.setAttribute("aria-invalid", typeof value !== "number");
-      if (typeof value === "number") change("", state => { state.picture[k][key] = value; });
+      const value = numberOf(input.value);
+      input.setAttribute("aria-invalid", value === undefined);
+      if (value !== undefined) change("", state => { state.picture[k][key] = value; });
     };
     return element("label", {}, `${"AB"[k]}: ${key}, m `, input);
   })));
@@ -271,20 +279,26 @@ function showReferences() {
 
 function costText() {
   if (!page.cost) return "";
-  return `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.`;
+  return `${about.format(page.cost.discs_at_start)} discs, about ${duration(page.seconds[page.state.scene.accuracy ?? "standard"])} at ${page.state.scene.accuracy ?? "standard"}.`;
 }
 
 function showState() {
-  const faults = faultsNow(), box = $("state"), {lines} = page, {verdict} = checker;
-  box.classList.toggle("bad", faults.length > 0 || Boolean(verdict?.fault));
-  const place = path => page.fresh && lines?.has(path) ? `line ${lines.get(path)}: ` : "";
-  box.textContent = faults.length
-    ? faults.slice(0, 6).map(({path, message}) => `${place(path)}${path}: ${message}`).join("\n") + (faults.length > 6 ? `\nand ${faults.length - 6} more` : "")
-    : verdict?.fault ? verdict.fault
+  const faults = faultsNow(), box = $("state"), {verdict} = checker;
+  box.classList.toggle("bad", faults.length > 0);
+  box.textContent = faults.length ? faults.map(({message}) => message).join("\n")
     : verdict ? [`The program finds no fault. ${costText()}`, ...verdict.warnings].join("\n")
-    : `This page finds no fault in what it tests: forms, pieces, depth and number of discs. listric check ./${baseName()}.toml decides. ${costText()}`;
+    : model ? `The program reads the scene. ${costText()}`
+    : `This page has no model, so it tests no more than that numbers are some. listric check ./${baseName()}.toml decides. ${costText()}`;
   page.forms.show(page.state.scene, faults);
   return faults;
+}
+
+/** What changes when the program has read the scene. */
+function showVerdict() {
+  showExtension(settings().distance);
+  showSection();
+  showCost();
+  showState();
 }
 
 /** The slider is at a share of the distance; at its end it stays there when the distance changes. */

@@ -19,7 +19,7 @@ namespace {
 constexpr double least_shear_angle = -30.0, greatest_shear_angle = 70.0; ///< that are tried
 constexpr double nowhere = -std::numeric_limits<double>::infinity();     ///< height of no curve, m
 
-/// Spacing of samples, m, as of kinematics.js: finer where the detachment is shorter than 5 km.
+/// Spacing of samples, m: finer where the detachment is shorter than 5 km.
 double sample_spacing(const Chain& detachment) {
     return std::min(25.0, length_of(detachment) / 200.0);
 }
@@ -92,19 +92,30 @@ std::vector<double> heights(const std::vector<Point>& curve, std::span<const dou
     return y;
 }
 
+/// What was flat at a depth, as far as it is in the hanging wall; the depth 0: its top.
+std::vector<Point> sheared_layer(const Samples& detachment, const ShearCoordinate& fault,
+                                 double extension, double tangent, double right, double depth,
+                                 double spacing) {
+    std::vector<Point> line;
+    const double last = depth > 0.0 ? right + 2.0 * depth * std::abs(tangent) + extension
+                                    : right + detachment.deepest * tangent;
+    for (double u = extension; u <= last; u += spacing) {
+        const double before = fault.height(u - extension);
+        if (depth > 0.0 && -depth < before)
+            continue; // in the footwall
+        const double y = fault.height(u) - before - depth, x = u + y * tangent;
+        if (x > right && (depth > 0.0 || u > right))
+            break;
+        line.push_back({x, y});
+    }
+    return line;
+}
+
 std::vector<Point> sheared_top(const Samples& detachment, double extension, double angle,
                                double right) {
     const double tangent = dem::tangent(angle * pi / 180.0);
-    const ShearCoordinate fault(detachment, tangent);
-    std::vector<Point> top;
-    for (double u = extension; u <= right + detachment.deepest * tangent; u += detachment.spacing) {
-        const double y = fault.height(u) - fault.height(u - extension);
-        const double x = u + y * tangent;
-        if (x > right && u > right)
-            break;
-        top.push_back({x, y});
-    }
-    return top;
+    return sheared_layer(detachment, ShearCoordinate(detachment, tangent), extension, tangent,
+                         right, 0.0, detachment.spacing);
 }
 
 /// Root mean square of the heights of a prediction, and of the detachment left of it, less those of
@@ -134,6 +145,25 @@ double misfit(const Samples& detachment, const std::vector<Point>& prediction,
 std::vector<Point> inclined_shear_top(const Chain& detachment, double extension, double angle,
                                       double right) {
     return sheared_top(Samples(detachment), extension, angle, right);
+}
+
+ShearedSection sheared_section(const Chain& detachment, double extension, double angle,
+                               double right, double spacing, int tops, int layers) {
+    const Samples samples(detachment);
+    const double tangent = dem::tangent(angle * pi / 180.0);
+    const ShearCoordinate fault(samples, tangent);
+    spacing = std::max(spacing, samples.spacing);
+    ShearedSection section;
+    for (int k = tops; k > 0; --k)
+        section.tops.push_back(
+            sheared_layer(samples, fault, extension * k / tops, tangent, right, 0.0, spacing));
+    for (int k = 1; k <= layers; ++k)
+        section.layers.push_back(sheared_layer(samples, fault, extension, tangent, right,
+                                               samples.deepest * k / (layers + 1), 4.0 * spacing));
+    for (const Point p : section.tops.front())
+        if (p.y < section.deepest.y)
+            section.deepest = p;
+    return section;
 }
 
 std::vector<Point> normals_top(const Chain& detachment, double extension, double right) {

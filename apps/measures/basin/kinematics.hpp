@@ -18,6 +18,17 @@ namespace listric::measures {
 std::vector<dem::Point> inclined_shear_top(const dem::Chain& detachment, double extension,
                                            double angle, double right);
 
+/// That hanging wall as it is drawn, in curves with points so far apart, m.
+struct ShearedSection {
+    /// Where the surface is after all of the extension, after an equal part less, and so on to 0.
+    std::vector<std::vector<dem::Point>> tops;
+    std::vector<std::vector<dem::Point>> layers; ///< what was flat at equal parts of its depth
+    dem::Point deepest;                          ///< of the top
+};
+
+ShearedSection sheared_section(const dem::Chain& detachment, double extension, double angle,
+                               double right, double spacing, int tops, int layers);
+
 /// Hanging wall whose detachment-normal lines stay normal and keep their length while they slip
 /// along it (Braun et al. 1994). The head block rotates by extension / radius on an arc. Between
 /// points whose normals part, a gap opens: there the hanging wall collapses.

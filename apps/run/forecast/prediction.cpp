@@ -1,6 +1,5 @@
 #include "apps/run/forecast/prediction.hpp"
 
-#include "apps/figures/report_run.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/machine/cores.hpp"
 #include "apps/support/statistics.hpp"
@@ -211,6 +210,7 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     else
         shared += run_prices.list_far * p.disc_steps;
     p.work = shared + serial;
+    p.shared_work = shared;
     p.seconds = shared / speed.team + serial / speed.one_thread;
     p.forecast = {.before = price_of_genesis(h, start) / speed.team,
                   .after = figures / speed.one_thread,

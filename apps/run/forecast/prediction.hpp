@@ -22,8 +22,9 @@ struct Prediction {
     double time_step = 0.0; ///< s
     double cycles = 0.0;    ///< after genesis
     double disc_steps = 0.0;
-    double work = 0.0;   ///< all that is done, disc-steps of the bare cycle
-    double memory = 0.0; ///< bytes
+    double work = 0.0;        ///< all that is done, disc-steps of the bare cycle
+    double shared_work = 0.0; ///< of that, what threads share
+    double memory = 0.0;      ///< bytes
     double snapshots = 0.0;
     double disk = 0.0;    ///< of all that is written, bytes
     double seconds = 0.0; ///< wall time, when nothing else runs
@@ -55,6 +56,10 @@ struct RunPrices {
     double figure_beside = 9e7; ///< of an earlier one, where no core is free for it
 };
 inline constexpr RunPrices run_prices{};
+
+/// Memory in which a report keeps the moments of a run that goes on, bytes. Of more it is made
+/// anew at the end, from the snapshots.
+inline constexpr double most_of_report = 2e8;
 
 /// A bonded lattice of the scene's size, at most 262,144 discs, is cycled for about `seconds` by
 /// the team, and half as long by one thread, with or without the account of energy. Processor time

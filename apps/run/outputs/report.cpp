@@ -3,6 +3,7 @@
 #include "apps/archive/folder/summary.hpp"
 #include "apps/figures/report_page.hpp"
 #include "apps/figures/report_run.hpp"
+#include "apps/run/forecast/prediction.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/support/files/file.hpp"

@@ -47,13 +47,12 @@ std::string quoted(const std::string& string) {
     return stream.str();
 }
 
-namespace {
-
-/// A float of TOML: it has a point or an exponent.
 std::string toml_float(double x) {
     std::string number = text(x);
     return number.find_first_of(".en") == number.npos ? number + ".0" : number;
 }
+
+namespace {
 
 /// Description of a wrong value: integer 3, string "abc", table.
 std::string type_and_value(const toml::node& node) {

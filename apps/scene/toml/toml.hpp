@@ -30,6 +30,9 @@ struct Entry {
 /// A string as TOML writes it.
 std::string quoted(const std::string& string);
 
+/// A float as TOML writes it: it has a point or an exponent.
+std::string toml_float(double x);
+
 /// Reads an entry into the object whose parameter it is.
 void read(const Entry& entry, const Parameter& parameter, void* object);
 
