@@ -86,7 +86,7 @@ function addListeners() {
   addRunListeners();
   new ResizeObserver(() => { if (page.section.width !== page.section.host.clientWidth) showWhole(); }).observe(page.section.host);
   window.addEventListener("beforeunload", event => {
-    if (page.past.length && !page.saved || runs.some(isWorking)) event.preventDefault();
+    if (page.past.length && !page.saved || isUnderWay()) event.preventDefault();
   });
 }
 
@@ -114,7 +114,7 @@ async function begin() {
     }),
     defaultOf: path => path.includes(".") ? defaultAt(facts, schema, page.state.scene, path) : schemaAt(schema, path)?.default});
   readScene(facts.toml, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
-  page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
+  if (facts.on_shelf) rememberShipped(facts.scene);
   if (window.innerWidth < 640) $("height").value = "2";
   page.section.view.height = Number($("height").value);
   addListeners();
@@ -130,6 +130,8 @@ async function begin() {
   showWhole();
   if (page.badPicture) tell(page.badPicture);
   $("footer").textContent = `${facts.program}. One file: nothing leaves this computer. Drop TOML, CSV of picks, PNG or JPEG anywhere.`;
+  if (hasModule) takeExampleOfAddress();
+  $("licence_texts").textContent = $("notices").textContent;
   $("trouble").hidden = true;
 }
 
