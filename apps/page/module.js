@@ -67,7 +67,11 @@ async function startModule(bytes, tell, keep) {
   memory = exports.memory;
   exports._initialize();
 
-  const put = bytes => new Uint8Array(memory.buffer, exports.input(bytes.length), bytes.length).set(bytes);
+  // A call may move the memory: its buffer is asked for afterwards.
+  const put = bytes => {
+    const at = exports.input(bytes.length);
+    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+  };
   const call = (name, ...values) => {
     const done = exports[name](...values);
     const text = textAt(exports.result(), exports.result_size());
@@ -97,6 +101,9 @@ async function startModule(bytes, tell, keep) {
     keepFiles: () => call('keep_files'),
     close: () => call('close'),
     /// x, y, radius, stratum, strain and depth at the start of each disc.
-    discs: count => new Float32Array(memory.buffer, exports.discs(), 6 * count).slice(),
+    discs(count) {
+      const at = exports.discs();
+      return new Float32Array(memory.buffer, at, 6 * count).slice();
+    },
   };
 }

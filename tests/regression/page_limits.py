@@ -9,9 +9,10 @@ from running_page import RunningPage
 
 # The module whose memory may have no more than so many pages of 64 kB: that section's limits become two.
 LIMITED = """
-const number = value => { const bytes = []; do { bytes.push(value & 127 | (value > 127 ? 128 : 0)); value >>>= 7; } while (value); return bytes; };
+const number = value => value > 127 ? [value & 127 | 128, ...number(value >>> 7)] : [value];
 const limited = (whole, most) => {
-  const bytes = new Uint8Array(whole), read = at => { let value = 0, shift = 0, byte; do { byte = bytes[at++]; value |= (byte & 127) << shift; shift += 7; } while (byte & 128); return [value, at]; };
+  const bytes = new Uint8Array(whole), read = (at, shift = 0, value = 0) => bytes[at] & 128
+    ? read(at + 1, shift + 7, value | (bytes[at] & 127) << shift) : [value | bytes[at] << shift, at + 1];
   for (let at = 8; at < bytes.length;) {
     const [size, begin] = read(at + 1);
     if (bytes[at] === 5) {
@@ -22,15 +23,17 @@ const limited = (whole, most) => {
   }
 };
 const whole = moduleBytes;
-window.moduleBytes = async () => limited(await whole(), a[0]);
-moduleBytes = window.moduleBytes;
+moduleBytes = async () => limited(await whole(), a[0]);
 """
 NAME = '<img src=x onerror="window.hurt = 1">", evil = "1'
 
 
 class PageLimits(RunningPage):
     def asks_before_it_closes(self):
-        return self.script("const event = new Event('beforeunload', {cancelable: true}); window.dispatchEvent(event); return event.defaultPrevented;")
+        return self.script("""
+            const event = new Event("beforeunload", {cancelable: true});
+            window.dispatchEvent(event);
+            return event.defaultPrevented;""")
 
     def toml(self):
         return self.script("return sceneText()")
@@ -46,7 +49,7 @@ class PageLimits(RunningPage):
         self.assertTrue(self.script("return $('run_stop').disabled"))
 
     def test_a_module_that_no_memory_is_given_for(self):
-        self.script("window.moduleBytes = moduleBytes = async () => { throw new RangeError('Out of memory'); }; $('run').click();")
+        self.script("moduleBytes = async () => { throw new RangeError('Out of memory'); }; $('run').click();")
         self.wait_for("$('run_state').textContent.includes('Out of memory')")
 
     def test_asks_before_a_run_is_lost(self):
@@ -57,11 +60,16 @@ class PageLimits(RunningPage):
         self.script("$('run_stop').click();")
         self.wait_for("runs[0].isStopped")
         self.assertTrue(self.asks_before_it_closes())
-        self.script("window.asked = []; window.confirm = text => { asked.push(text); return false; }; window.first = runs[0]; $('run').click();")
-        self.assertEqual(self.script("return [asked.length, runs[0] === first, Boolean(first.worker)]"), [1, True, True])
+        asked = self.script("""
+            const asked = [];
+            window.former = runs[0];
+            window.confirm = text => { asked.push(text); return false; };
+            $("run").click();
+            return [asked.length, runs[0] === former, Boolean(former.worker)];""")
+        self.assertEqual(asked, [1, True, True])
         self.script("window.confirm = () => true; $('run').click();")
-        self.wait_for("runs[0] && runs[0] !== first")
-        self.assertIsNone(self.script("return first.worker"))
+        self.wait_for("runs[0] && runs[0] !== former")
+        self.assertIsNone(self.script("return former.worker"))
 
     def test_a_worker_that_is_gone_is_told(self):
         self.script("$('run').click();")
@@ -121,19 +129,25 @@ class PageLimits(RunningPage):
     def touch(self, element, *ways):
         """A finger on an element, and where it goes from there, pixels."""
         self.script("document.querySelector(a[0]).scrollIntoView({block: 'center'});", element)
-        box = self.script("const {x, y, width, height} = document.querySelector(a[0]).getBoundingClientRect(); return {x, y, width, height};", element)
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-        send = lambda kind, *points: self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
+        x, y = self.script("""
+            const {x, y, width, height} = document.querySelector(a[0]).getBoundingClientRect();
+            return [x + width / 2, y + height / 2];""", element)
+
+        def send(kind, *points):
+            self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
         send("touchStart", {"x": x, "y": y})
         for right, down in ways:
             send("touchMove", {"x": x + right, "y": y + down})
         send("touchEnd")
 
     def test_a_telephone_draws_runs_and_saves(self):
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 3, "mobile": True})
-        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
-        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
-        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setTouchEmulationEnabled", {"enabled": False})
+        emulate = self.driver.execute_cdp_cmd
+        telephone = {"width": 390, "height": 844, "deviceScaleFactor": 3, "mobile": True}
+        emulate("Emulation.setDeviceMetricsOverride", telephone)
+        emulate("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+        self.addCleanup(emulate, "Emulation.clearDeviceMetricsOverride", {})
+        self.addCleanup(emulate, "Emulation.setTouchEmulationEnabled", {"enabled": False})
         self.assertEqual(self.visit((self.folder / "short-drawing.html").as_uri()), "true")
         before = self.toml()
         self.touch("#section g.handle", (4, 4), (12, 6))

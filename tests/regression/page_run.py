@@ -28,7 +28,8 @@ class PageRun(RunningPage):
         self.wait_for("runs.every(run => run.isStopped || run.summary)")
         self.script("$('run_stop').click();")
         self.wait_for("runs.every(run => run.summary || run.failure)")
-        first, second = self.script("return runs.map(run => ({failure: run.failure, hash: run.moment.state_hash, summary: run.summary}))")
+        first, second = self.script("""
+            return runs.map(({failure, moment, summary}) => ({failure, hash: moment.state_hash, summary}));""")
         self.assertEqual((first["failure"], second["failure"]), ("", ""))
         self.assertNotEqual(first["hash"], second["hash"])
         self.assertEqual(second["hash"], summary["state_hash"])

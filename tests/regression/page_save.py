@@ -12,7 +12,8 @@ from program import listric
 from running_page import RunningPage
 
 # Of the machine, or of the way to the result.
-OF_THE_RUN = {"wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s", "provenance", "cycle_level", "threads"}
+OF_THE_RUN = {"wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s", "provenance", "cycle_level",
+              "threads"}
 
 
 def summary_of(folder):
@@ -71,7 +72,8 @@ class PageSave(RunningPage):
         ended = listric("report", folder.name, cwd=self.folder)
         self.assertIn("is damaged", ended.stdout)
         snapshot.write_bytes(whole[:5000])
-        self.assertIn("extension-00500.00m.h5: is damaged", listric("report", folder.name, cwd=self.folder).stdout)
+        ended = listric("report", folder.name, cwd=self.folder)
+        self.assertIn("extension-00500.00m.h5: is damaged", ended.stdout)
         ended = listric("report", "downloads/short-seed-1.zip", cwd=self.folder)
         self.assertEqual(ended.returncode, 2)
         self.assertIn("unpack it first", ended.stdout)
@@ -83,8 +85,8 @@ class PageSave(RunningPage):
         self.wait_for("runs[0].isStopped")
         folder = self.unpacked("short-seed-1")
         self.assertIn("--resume", self.script("return $('run_state').textContent"))
-        ended = listric("run", "short-seed-1/scene.toml", "--resume", "--output", "short-seed-1", "--no-figures", "--no-report",
-                        cwd=self.folder)
+        ended = listric("run", "short-seed-1/scene.toml", "--resume", "--output", "short-seed-1", "--no-figures",
+                        "--no-report", cwd=self.folder)
         self.assertEqual(ended.returncode, 0, ended.stdout)
         self.script("$('run_stop').click();")
         self.wait_for("runs[0].summary || runs[0].failure")
