@@ -9,7 +9,7 @@ import re
 import unittest
 
 from program import listric
-from running_page import RunningPage
+from page_run import RunningPage
 
 # Of the machine, or of the way to the result.
 OF_THE_RUN = {"wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s", "provenance", "cycle_level",
@@ -45,7 +45,7 @@ class PageSave(RunningPage):
         """What the page shows of it."""
         rows = self.script("return [...runs[0].table.rows].map(row => [...row.cells].map(cell => cell.textContent))")
         told = dict(row[:2] for row in rows)
-        self.assertEqual(told["Extension"], "0.70 km")
+        self.assertEqual(told["Extension"], "700 m")
         self.assertEqual(told["Tilt of the head block"], f"{summary['rollover_tilt_deg']:.1f}°")
         self.assertIn("mass error", self.script("return runs[0].verdict.textContent"))
         history = list(csv.DictReader((native / "history.csv").open()))
