@@ -159,6 +159,18 @@ double length_of(const Chain& chain) {
     return sum;
 }
 
+double sole_out(const Chain& chain) {
+    constexpr double level = 1e-9; // round-off of an arc's end
+    double x = chain.empty() ? 0.0 : chain.back().end.x;
+    for (std::size_t k = chain.size(); k-- > 0;) {
+        const Segment& piece = chain[k];
+        if (piece.curvature != 0.0 || std::abs(piece.start_tangent.y) > level)
+            break;
+        x = piece.start.x;
+    }
+    return x;
+}
+
 double height_at(const Chain& chain, double x) {
     double low = 0.0, high = length_of(chain);
     for (int n = 0; n < 60; ++n) { // to round-off

@@ -48,6 +48,9 @@ double length_of(const Chain& chain); ///< m
 
 Point point_at(const Chain& chain, double arc_length);
 
+/// x from which on a chain is level up to its end: its sole-out point, m.
+double sole_out(const Chain& chain);
+
 /// Height of a chain whose x ascends, at x, m; beyond an end, the height of that end.
 double height_at(const Chain& chain, double x);
 

@@ -41,8 +41,7 @@ MotionInstant Motion::staged_at(double time, Travel travel) const {
     if (distance < change) // s = a t^2 / 2
         share *= std::sqrt(std::max(distance, crawl) / change);
     const double travel_speed = now.speed * share;
-    return {travel_speed, now.slope * travel_speed, now.base_moves ? 1.0 : 0.0,
-            now.detachment_friction};
+    return {travel_speed, now.slope * travel_speed, now.runs_from, now.detachment_friction};
 }
 
 Extension Motion::staged_position(Travel travel) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,13 +13,17 @@ namespace listric::dem {
 /// Work of sedimentation at the surface.
 enum class SurfaceWork { both, fill, erode, none };
 
+/// x from which on the detachment's material runs along it with the wall, m: all of it, or none.
+inline constexpr double runs_everywhere = -std::numeric_limits<double>::infinity();
+inline constexpr double runs_nowhere = std::numeric_limits<double>::infinity();
+
 /// Part of a run in which base and right wall move steadily, or rest.
 struct MotionStage {
     Travel start = {}, end = {};
     Extension start_position = {}; ///< of the wall
-    double slope = 1.0;     ///< of the wall's position over travel; 0: it rests, < 0: it returns
-    double speed = 0.0;     ///< of travel, m/s; that of the wall is slope * speed
-    bool base_moves = true; ///< the detachment's conveyor goes with the wall
+    double slope = 1.0; ///< of the wall's position over travel; 0: it rests, < 0: it returns
+    double speed = 0.0; ///< of travel, m/s; that of the wall is slope * speed
+    double runs_from = runs_everywhere;
     std::optional<double> detachment_friction = {}; ///< in place of the surface's
     std::optional<double> sediment_friction = {};   ///< of sediment discs, in place of their own
     SurfaceWork surface = SurfaceWork::both;
@@ -26,9 +31,9 @@ struct MotionStage {
 
 /// Base and right wall in a cycle.
 struct MotionInstant {
-    double travel_speed;                 ///< m/s
-    double speed;                        ///< of the wall, m/s
-    double conveyor = 1.0;               ///< factor of that speed along the detachment
+    double travel_speed; ///< m/s
+    double speed;        ///< of the wall, m/s
+    double runs_from = runs_everywhere;
     std::optional<double> friction = {}; ///< of the detachment, in place of its own
 };
 
@@ -41,6 +46,7 @@ struct Motion {
 
     /// One after the other; empty: the wall is pulled on and on, and its position is the travel.
     std::vector<MotionStage> stages = {};
+    double runs_from = runs_everywhere; ///< of the detachment, where there are no stages
 
     /// Speed of travel where there are no stages, m/s.
     double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
@@ -50,7 +56,7 @@ struct Motion {
         if (!stages.empty())
             return staged_at(time, travel);
         const double now = speed_at(time);
-        return {now, now};
+        return {now, now, runs_from};
     }
 
     /// Displacement of the right wall since extension began, m.

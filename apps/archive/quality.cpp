@@ -149,6 +149,46 @@ void add_still_ground(std::vector<QualityCheck>& all, const JsonObject& summary,
     all.push_back(std::move(check));
 }
 
+/// How much of the base's friction the discs need, and so whether another friction would matter.
+void add_base_friction(std::vector<QualityCheck>& all, const JsonObject& summary,
+                       const QualityContext& context) {
+    using F = BaseForces;
+    using P = BasePart;
+    constexpr double little = 0.05; // of the length
+    if (!context.base_friction)
+        return;
+    const auto number = [&](const std::string& key) { return number_at(summary, key.c_str()); };
+    std::vector<std::string> values;
+    double most_sliding = 0.0;
+    const auto add_part = [&](const char* part, const std::string& friction,
+                              const std::string& sliding) {
+        const auto mobilised = number(friction), slides = number(sliding);
+        if (!mobilised || !slides)
+            return;
+        values.push_back(
+            fmt::format("{} {:.2f}, {:.0f} % slides", part, std::abs(*mobilised), 100.0 * *slides));
+        most_sliding = std::max(most_sliding, *slides);
+    };
+    add_part("ramp", measures::name_of<&M::base, &F::ramp, &P::mobilised_friction>(),
+             measures::name_of<&M::base, &F::ramp, &P::sliding_share>());
+    add_part("flat", measures::name_of<&M::base, &F::flat, &P::mobilised_friction>(),
+             measures::name_of<&M::base, &F::flat, &P::sliding_share>());
+    if (values.empty())
+        return;
+    const std::string value = fmt::format("{}", fmt::join(values, "; "));
+    const bool idle = most_sliding < little;
+    all.push_back({measures::name_of<&M::base, &F::flat, &P::mobilised_friction>(),
+                   "Mobilised friction of the base", value,
+                   fmt::format("at most {:g}", *context.base_friction), QualityVerdict::note,
+                   idle
+                       ? "A higher friction of the base changes nothing here: what there is is not "
+                         "mobilised, and the discs go with the base."
+                       : "Where discs slide on the base, its friction matters.",
+                   idle ? fmt::format("the base's friction of {:g} is not mobilised ({})",
+                                      *context.base_friction, value)
+                        : ""});
+}
+
 /// How wide faults are in discs, and so what may be interpreted.
 void add_discs_per_fault(std::vector<QualityCheck>& all, const JsonObject& summary,
                          const QualityContext& context) {
@@ -213,6 +253,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     add_volume(all, summary);
     add_balance(all, summary, context);
     add_still_ground(all, summary, context);
+    add_base_friction(all, summary, context);
     add_discs_per_fault(all, summary, context);
     add_sediment(all, summary);
     add_rest(all, summary);

@@ -35,7 +35,8 @@ struct QualityCheck {
 /// Facts of a run that its summary does not hold.
 struct QualityContext {
     bool base_moves = false;
-    double mean_radius = 0.0; ///< m
+    double mean_radius = 0.0;                 ///< m
+    std::optional<double> base_friction = {}; ///< of detachment or stretching base
 };
 
 /// Questions that a finished run's summary.json answers, in the order of docs/explain/trust.md;

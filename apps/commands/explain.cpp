@@ -2,6 +2,7 @@
 
 #include "apps/archive/tables/rock_record.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/base_words.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
 #include "dem/cycle_physics.hpp"
@@ -99,6 +100,15 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        p.disc_steps, p.memory / 1e6, output_text(p), scene.output.interval);
 }
 
+/// What moves with the right wall, and what resists it.
+std::string explain_base(const Scene& scene) {
+    const double friction =
+        scene.detachment ? scene.detachment->friction : scene.stretching->friction;
+    return fmt::format("base\n  {}\n  friction {:g}, of which ramp_mobilised_friction and "
+                       "flat_mobilised_friction tell what is used\n\n",
+                       base_words(scene), friction);
+}
+
 /// Intervals that are other ways of the wall than their defaults.
 std::string explain_intervals(const Scene& scene) {
     std::string text;
@@ -162,8 +172,9 @@ std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, Ef
     const Prediction p = predict(scene, speed);
     return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description,
                        rock_line(scene, archive::known_rocks(scene))) +
-           explain_effects(scene, effects) + explain_size(scene, p) + explain_intervals(scene) +
-           explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +
+           explain_effects(scene, effects) + explain_size(scene, p) + explain_base(scene) +
+           explain_intervals(scene) + explain_parts(scene, effects) +
+           explain_cost(scene, p, speed, threads) +
            "accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 "
            "%);\n"
            "faults are as narrow as three discs, so their number and place want standard or "

@@ -60,9 +60,10 @@ json object_or_null(const std::string& text) {
 /// Answers to "Is this run good?" by the summary; none before the run has ended.
 json quality_of(const ReportPage::Run& run) {
     json list = json::array();
-    for (const archive::QualityCheck& check :
-         archive::quality_checks(parse_json(run.summary),
-                                 {.base_moves = run.base_moves, .mean_radius = run.mean_radius}))
+    for (const archive::QualityCheck& check : archive::quality_checks(
+             parse_json(run.summary), {.base_moves = run.base_moves,
+                                      .mean_radius = run.mean_radius,
+                                      .base_friction = base_friction(run.scene)}))
         list.push_back({{"key", check.key},
                         {"label", check.label},
                         {"value", check.value},

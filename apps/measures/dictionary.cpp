@@ -117,6 +117,42 @@ constexpr Measure<M> of_material[] = {
      taken<&M::old_sediment_bonded_fraction>},
 };
 
+constexpr Measure<M> of_base[] = {
+    {"ramp_mobilised_friction", "1", "mobilised friction of the ramp",
+     "shear over normal force, sums over the contacts of the detachment down to its sole-out "
+     "point, "
+     "at the moment: above 0 the base pulls the discs along, below 0 it holds them back. At most "
+     "the detachment's friction",
+     taken<&M::base, &BaseForces::ramp, &BasePart::mobilised_friction>},
+    {"flat_mobilised_friction", "1", "mobilised friction of the flat",
+     "`ramp_mobilised_friction` of the detachment beyond its sole-out point, or of a base that "
+     "stretches",
+     taken<&M::base, &BaseForces::flat, &BasePart::mobilised_friction>},
+    {"ramp_slip_ratio", "1", "slip on the ramp over the wall's",
+     "speed at which discs slip along the detachment down to its sole-out point, mean over its "
+     "length, over that of the wall: 0 where they go with the base, above 0 down the dip",
+     taken<&M::base, &BaseForces::ramp, &BasePart::slip_ratio>},
+    {"flat_slip_ratio", "1", "slip on the flat over the wall's",
+     "`ramp_slip_ratio` of the detachment beyond its sole-out point, or of a base that stretches: "
+     "above 0 toward the right wall",
+     taken<&M::base, &BaseForces::flat, &BasePart::slip_ratio>},
+    {"ramp_sliding_share", "1", "sliding share of the ramp",
+     "share of the length of the detachment, down to its sole-out point, whose contacts have 99 % "
+     "of the shear force that their friction allows",
+     taken<&M::base, &BaseForces::ramp, &BasePart::sliding_share>},
+    {"flat_sliding_share", "1", "sliding share of the flat",
+     "`ramp_sliding_share` of the detachment beyond its sole-out point, or of a base that "
+     "stretches",
+     taken<&M::base, &BaseForces::flat, &BasePart::sliding_share>},
+    {"wall_force_n_per_m", "N/m", "force on the right wall",
+     "horizontal force of the discs on the right wall at the moment, per metre of the third "
+     "dimension",
+     taken<&M::base, &BaseForces::right_wall>},
+    {"left_wall_force_n_per_m", "N/m", "force on the left wall",
+     "horizontal force of the discs on the left wall of a box that stretches",
+     taken<&M::base, &BaseForces::left_wall>},
+};
+
 constexpr Measure<M> of_quality[] = {
     {"still_ground_m", "m", "rise of ground that nothing moves",
      "mean rise since the start of pre-rift discs that lay in the highest tenth of the hanging "
@@ -148,11 +184,10 @@ constexpr Measure<M> of_quality[] = {
 } // namespace
 
 std::span<const MeasureTable> measure_tables() {
-    static constexpr MeasureTable tables[] = {{"structure", of_structure},
-                                              {"kinematics", of_kinematics},
-                                              {"strain", of_strain},
-                                              {"material", of_material},
-                                              {"quality", of_quality}};
+    static constexpr MeasureTable tables[] = {
+        {"structure", of_structure}, {"kinematics", of_kinematics},
+        {"strain", of_strain},       {"material", of_material},
+        {"base", of_base},           {"quality", of_quality}};
     return tables;
 }
 

@@ -167,6 +167,7 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
     if (extension > 0.0 && setting.has_detachment &&
         !setting.motion.shortens(just_before(setting.motion, state.clock)))
         add_still_ground(m, setting, state);
+    m.base = measure_base_forces(state, base);
     add_conservation(m, state);
     add_quietness(m, setting, events);
     return m;

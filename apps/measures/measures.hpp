@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/base_forces.hpp"
 #include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/faults/broken_rock.hpp"
 #include "apps/measures/setting.hpp"
@@ -36,6 +37,7 @@ struct Measures {
     /// Whether motion is slow enough not to matter; absent without gravity, where nothing rests,
     /// and before forces are sampled.
     std::optional<bool> quasi_static;
+    BaseForces base;
     std::optional<std::vector<Depocentre>> depocentres;
     /// Where the halfgraben ends and the collapse graben begins, with the share of the basin's area
     /// on the halfgraben's side.

@@ -134,6 +134,7 @@ Scene genesis_of(const Scene& scene) {
     start.extension.distance = greatest_extension(scene); // decides how far the base reaches
     if (start.detachment) {                               // the backstop stands in genesis
         start.detachment->footwall_top.reset();
+        start.detachment->base = DetachmentParameters{}.base;
         start.detachment->footwall_friction = DetachmentParameters{}.footwall_friction;
     }
     std::erase_if(start.effects, [](const EffectPart& part) { return !part.effect->in_genesis; });

@@ -59,7 +59,8 @@ Motion make_motion(const Scene& scene) {
         position = position + Extension(distance);
         made.slope = distance == 0.0 ? 0.0 : std::copysign(ratio, distance);
         made.speed = distance == 0.0 ? speed : speed / ratio;
-        made.base_moves = one.base_moves;
+        if (one.base && scene.detachment)
+            made.runs_from = runs_from(*one.base, *scene.detachment);
         made.detachment_friction = one.detachment_friction;
         made.sediment_friction = one.sediment_friction;
         made.surface = one.surface_work;
@@ -90,8 +91,21 @@ RigidBase make_rigid_base(const Scene& scene) {
     const Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                         greatest_extension(scene)};
     const Motion motion = make_motion(scene);
-    return scene.stretching ? make_stretching_box(*scene.stretching, extent, scene.basement, motion)
-                            : make_halfgraben(*scene.detachment, extent, scene.basement, motion);
+    RigidBase base = scene.stretching
+                         ? make_stretching_box(*scene.stretching, extent, scene.basement, motion)
+                         : make_halfgraben(*scene.detachment, extent, scene.basement, motion);
+    for (Surface& surface : base.surfaces)
+        if (surface.name == "right wall" || surface.name == "left wall")
+            surface.friction = scene.extension.wall_friction;
+    return base;
+}
+
+double base_friction(const Scene& scene) {
+    if (!scene.detachment)
+        return scene.stretching->friction;
+    const Stages* stages = scene.find<Stages>();
+    return (stages ? stages->back().detachment_friction : std::nullopt)
+        .value_or(scene.detachment->friction);
 }
 
 double hanging_wall_area(const Scene& scene) {

@@ -24,10 +24,11 @@ struct Effect;
 
 /// Motion of base and right wall.
 struct ExtensionParameters {
-    double distance = 10e3; ///< total extension, m
-    double rate = 0.01;     ///< geological extension rate, m/a
-    double speed = 1.0;     ///< speed in the model, metres per model second
-    double ramp = 24.0;     ///< model time over which the speed grows from rest, s
+    double distance = 10e3;     ///< total extension, m
+    double rate = 0.01;         ///< geological extension rate, m/a
+    double speed = 1.0;         ///< speed in the model, metres per model second
+    double ramp = 24.0;         ///< model time over which the speed grows from rest, s
+    double wall_friction = 0.0; ///< between discs and the walls
 };
 
 /// Parameters of the cycle.
@@ -109,6 +110,9 @@ bool is_drawn_at(const Scene& scene, double extension);
 
 /// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);
+
+/// Friction of the detachment or of the base that stretches.
+double base_friction(const Scene& scene);
 
 /// Area between the base and the original surface, up to the moving wall, m^2; 0 without a base.
 double hanging_wall_area(const Scene& scene);

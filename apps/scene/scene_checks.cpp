@@ -80,6 +80,35 @@ void check_detachment(const Scene& scene, const toml::table& document) {
                     "hanging_wall.length_m");
 }
 
+/// That the ground before extension is one line, below the original surface.
+void check_ground(const Scene& scene, const toml::table& document) {
+    const HangingWallParameters& wall = scene.hanging_wall;
+    if (!wall.ground.empty() && wall.ground_slope != 0.0)
+        fail(entry_at(document, "hanging_wall.ground_slope_deg"),
+             fmt::format("is {} beside hanging_wall.ground; both shape the ground, give one",
+                         text(wall.ground_slope)));
+    const bool falls_left = wall.ground_slope < 0.0;
+    if (wall.ground_slope != 0.0 &&
+        (falls_left ? wall.ground_slope_from <= 0.0 : wall.ground_slope_from >= wall.length))
+        fail(entry_at(document, "hanging_wall.ground_slope_from_m"),
+             fmt::format("is {}, but with ground_slope_deg = {} the ground falls to the {} of it, "
+                         "allowed: {}",
+                         text(wall.ground_slope_from), text(wall.ground_slope),
+                         falls_left ? "left" : "right",
+                         falls_left ? "above 0"
+                                    : "below hanging_wall.length_m = " + text(wall.length)));
+    for (std::size_t k = 0; k < wall.ground.size(); ++k) {
+        const Entry point = entry_at(document, fmt::format("hanging_wall.ground[{}]", k));
+        if (wall.ground[k].y > wall.thickness)
+            fail(point, fmt::format("is {} deep, allowed: at most hanging_wall.thickness_m = {}",
+                                    text(wall.ground[k].y), text(wall.thickness)));
+        if (k > 0 && wall.ground[k].x <= wall.ground[k - 1].x)
+            fail(point, fmt::format("is not sorted: x = {} comes after {}; sort the points by x, "
+                                    "each x once",
+                                    text(wall.ground[k].x), text(wall.ground[k - 1].x)));
+    }
+}
+
 void check_resolution(const Scene& scene, const toml::table& document) {
     constexpr double fewest = 100, most = 5e6;
     const double radius = scene.hanging_wall.mean_radius;
@@ -198,6 +227,7 @@ void check_scene(const Scene& scene, const toml::table& document, EffectList eff
     check_base(scene, document);
     check_needs(scene, document, effects);
     check_drivers(scene, document);
+    check_ground(scene, document);
     check_resolution(scene, document);
     const Refuse refuse = [&](const std::string& path, const std::string& message) {
         fail(entry_at(document, path), message);

@@ -15,12 +15,12 @@ namespace listric::dem {
 struct BaseInstant {
     double extension;                    ///< m
     double speed;                        ///< of extension, m/s; below 0: shortening
-    double conveyor = 1.0;               ///< factor of the speed along the detachment
+    double runs_from = runs_everywhere;  ///< x from which on the detachment's material runs, m
     std::optional<double> friction = {}; ///< of the detachment, in place of the surface's
 };
 
 inline BaseInstant base_instant(const MotionInstant& motion, double extension) {
-    return {extension, motion.speed, motion.conveyor, motion.friction};
+    return {extension, motion.speed, motion.runs_from, motion.friction};
 }
 
 inline BaseInstant base_instant(const RigidBase& base, const Clock& clock) {
@@ -67,11 +67,21 @@ inline BaseContactForce surface_force(const Surface& surface, const BaseInstant&
             -(foot.distance * shear_force)};
 }
 
-/// Velocity of a surface where it has a normal, below a disc at x, m/s. The conveyor runs along the
-/// chain, whose direction is (n_y, -n_x).
+/// Speed along the chain of a surface's material at x, in units of the extension speed.
+inline double conveyor_at(const Surface& surface, const BaseInstant& now, double x) {
+    return x >= now.runs_from ? surface.conveyor : 0.0;
+}
+
+/// x of the point of a rigid surface that is closest to a disc, m.
+inline double x_of_foot(const Foot& foot, const BaseContactDisc& disc) {
+    return disc.x - foot.distance * foot.normal.x;
+}
+
+/// Velocity of a surface where it has a normal and the x of `place`, below a disc at x, m/s. The
+/// conveyor runs along the chain, whose direction is (n_y, -n_x).
 inline Point surface_velocity(const Surface& surface, const BaseInstant& now, double x,
-                              Point normal) {
-    const double conveyor = surface.conveyor * now.conveyor;
+                              double place, Point normal) {
+    const double conveyor = conveyor_at(surface, now, place);
     double along = surface.translation.x + conveyor * normal.y;
     if (surface.stretched_length > 0.0)
         along += x / (surface.stretched_length + now.extension);
@@ -90,7 +100,8 @@ base_contact_motion(const Surface& surface, const BaseInstant& now, const BaseCo
     const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
     if (!foot)
         return std::nullopt;
-    const Point velocity = surface_velocity(surface, now, disc.x, foot->normal);
+    const Point velocity =
+        surface_velocity(surface, now, disc.x, x_of_foot(*foot, disc), foot->normal);
     return BaseContactMotion{*foot, slip_rate_on(*foot, velocity, disc)};
 }
 
@@ -104,8 +115,10 @@ inline BaseContactForce base_contact_force(const Surface& surface, const BaseIns
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    return surface_force(surface, now, *foot, surface_velocity(surface, now, disc.x, foot->normal),
-                         disc, parameters, shear_force);
+    return surface_force(
+        surface, now, *foot,
+        surface_velocity(surface, now, disc.x, x_of_foot(*foot, disc), foot->normal), disc,
+        parameters, shear_force);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -120,6 +133,7 @@ struct NodeContactMotion {
     std::optional<Foot> foot;
     std::size_t node = 0;              ///< first of the face
     std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
+    double x = 0.0;                    ///< of that point where the base is without load, m
     Point velocity;                    ///< of the nodes there, m/s
 };
 
@@ -140,6 +154,7 @@ NodeContactMotion node_contact_motion(const Surface& surface, const NodeColumns&
         motion.node = point->node;
         motion.weight = point->weight;
         for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+            motion.x += motion.weight[k] * nodes.x[motion.node + k];
             motion.velocity.x += motion.weight[k] * nodes.vx[motion.node + k];
             motion.velocity.y += motion.weight[k] * nodes.vy[motion.node + k];
         }
@@ -156,7 +171,7 @@ inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
                                                        const BaseContactDisc& disc) {
     if (!motion.foot)
         return std::nullopt;
-    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
+    const Point runs = surface_velocity(surface, now, disc.x, motion.x, motion.foot->normal);
     const Point velocity{motion.velocity.x + runs.x, motion.velocity.y + runs.y};
     return BaseContactMotion{*motion.foot, slip_rate_on(*motion.foot, velocity, disc)};
 }
@@ -172,7 +187,7 @@ inline NodeContactForce node_contact_force(const Surface& surface, const BaseNod
         shear_force = 0.0;
         return {};
     }
-    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
+    const Point runs = surface_velocity(surface, now, disc.x, motion.x, motion.foot->normal);
     const BaseContactForce force = surface_force(
         surface, now, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
         parameters, shear_force);

@@ -68,7 +68,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         energy.shear_strain += shear_energy(c.shear_force[k], slip_rate, p, dt);
     }
 
-    const double speed = base.motion.speed_at(clock.time());
+    const BaseInstant instant = base_instant(base, clock);
     const double speed_before = base.motion.speed_at(std::max(0.0, clock.time() - dt));
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     std::vector<double> ux_before(nodes.x.size()), uy_before(nodes.x.size());
@@ -89,9 +89,9 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
             double place = state.base_contacts.get(columns::place)[k];
             motion = surface_motion(
                 surface, node_contact_motion(surface, nodes, clock.extension.m, disc, place),
-                {clock.extension.m, speed}, disc);
+                instant, disc);
         } else {
-            motion = base_contact_motion(surface, {clock.extension.m, speed}, disc);
+            motion = base_contact_motion(surface, instant, disc);
         }
         const auto foot_before =
             nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});

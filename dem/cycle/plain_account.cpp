@@ -10,6 +10,7 @@ namespace listric::dem {
 
 struct PlainAccount::BaseContact {
     const Surface& surface;
+    double conveyor; ///< of the surface there, in units of the extension speed
     const BaseContactDisc& disc;
     const ContactParameters& parameters;
     std::optional<BaseContactMotion> motion; ///< none where the surface has ended
@@ -27,8 +28,8 @@ PlainAccount::PlainAccount(State& state, const RigidBase& base)
       nodes_(base_node_columns(state)), radii_(state), of_nodes_(state.base_nodes.rows()) {}
 
 void PlainAccount::enter(const BaseContact& contact) {
-    const auto& [surface, disc, p, motion, node_velocity, force, before, after, radius_rate] =
-        contact;
+    const auto& [surface, conveyor, disc, p, motion, node_velocity, force, before, after,
+                 radius_rate] = contact;
     const Clock& clock = state_.clock;
     const Motion& base = base_.motion;
     const double dt = clock.time_step, time = clock.time();
@@ -52,10 +53,9 @@ void PlainAccount::enter(const BaseContact& contact) {
     flows_.radii += (force.x * n.x + force.y * n.y) * radius_rate * dt;
     flows_.stepping +=
         normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
-    flows_.boundary_work +=
-        0.5 * dt *
-        ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
-         (speed + next_speed) * surface.conveyor * (force.x * n.y - force.y * n.x));
+    flows_.boundary_work += 0.5 * dt *
+                            ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
+                             (speed + next_speed) * conveyor * (force.x * n.y - force.y * n.x));
     if (surface.stretched_length > 0.0) {
         const double length = surface.stretched_length + clock.extension.m;
         flows_.boundary_work += 0.5 * dt * force.x *
@@ -76,8 +76,11 @@ void PlainAccount::enter_base_contact(std::size_t k, const BaseContactDisc& disc
                                       const ContactParameters& p, double shear_before,
                                       const BaseContactForce& force) {
     const Surface& surface = surface_of(k);
-    enter({surface, disc, p, base_contact_motion(surface, now_, disc), Point{}, force, shear_before,
-           b_.shear_force[k], radius_rate_of(k)});
+    const auto motion = base_contact_motion(surface, now_, disc);
+    const double conveyor =
+        motion ? conveyor_at(surface, now_, x_of_foot(motion->foot, disc)) : 0.0;
+    enter({surface, conveyor, disc, p, motion, Point{}, force, shear_before, b_.shear_force[k],
+           radius_rate_of(k)});
 }
 
 void PlainAccount::enter_node_contact(std::size_t k, const BaseContactDisc& disc,
@@ -87,8 +90,9 @@ void PlainAccount::enter_node_contact(std::size_t k, const BaseContactDisc& disc
     // The contact's place has been found: to look again changes nothing.
     double place = state_.base_contacts.get(columns::place)[k];
     const NodeContactMotion at = node_contact_motion(surface, nodes_, now_.extension, disc, place);
-    enter({surface, disc, p, surface_motion(surface, at, now_, disc), at.velocity, on_nodes.force,
-           shear_before, b_.shear_force[k], radius_rate_of(k)});
+    enter({surface, conveyor_at(surface, now_, at.x), disc, p,
+           surface_motion(surface, at, now_, disc), at.velocity, on_nodes.force, shear_before,
+           b_.shear_force[k], radius_rate_of(k)});
     if (surface.follows == Follows::breakaway) {
         of_nodes_[0].x += on_nodes.force.x;
         of_nodes_[0].y += on_nodes.force.y;

@@ -62,11 +62,18 @@ Chain detachment_chain(const DetachmentParameters& detachment, double reach) {
     return chain;
 }
 
+double runs_from(BaseKind base, const DetachmentParameters& detachment) {
+    return base == BaseKind::sheet   ? runs_everywhere
+           : base == BaseKind::rests ? runs_nowhere
+                                     : sole_out(detachment_chain(detachment, 0.0));
+}
+
 RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& extent,
                           const Material& material, const Motion& motion) {
     RigidBase base;
     base.material = material;
     base.motion = motion;
+    base.motion.runs_from = runs_from(detachment.base, detachment);
     base.surfaces = {
         {.name = "detachment",
          .chain = detachment_chain(detachment, extent.reach()),

@@ -21,10 +21,18 @@ struct DetachmentSegment {
 DetachmentSegment arc_to_dip(double end_dip, double radius, std::optional<double> start_dip = {});
 DetachmentSegment straight(double length, std::optional<double> start_dip = {});
 
+/// What of the base moves with the right wall, and pulls; what rests resists.
+enum class BaseKind {
+    sheet, ///< the whole detachment
+    rests, ///< nothing: the footwall is at rest
+    ramp   ///< the flat alone, from the sole-out point on
+};
+
 /// The rigid surface on which the hanging wall slides, from the breakaway at (0, 0) down.
 struct DetachmentParameters {
     double start_dip = 90.0; ///< dip at the breakaway, degrees
-    double friction = 0.5;   ///< between discs and the moving base
+    BaseKind base = BaseKind::sheet;
+    double friction = 0.5; ///< between discs and the base
     FrictionRule friction_rule = FrictionRule::wall;
     std::vector<DetachmentSegment> segments;
     /// Length of level ground behind the breakaway, at rest whatever the base does, m; none: a
@@ -50,6 +58,9 @@ struct Extent {
 
 /// The detachment's pieces end to end, continued by a flat to x = `reach`, m.
 Chain detachment_chain(const DetachmentParameters& detachment, double reach);
+
+/// x from which on a detachment's material runs with the wall, m.
+double runs_from(BaseKind base, const DetachmentParameters& detachment);
 
 /// Detachment, backstop above the breakaway or the footwall's top, and right wall.
 RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& extent,

@@ -5,6 +5,7 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/numbers/units.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -88,10 +89,11 @@ void release_pressure(State& state, const RigidBase& base, const CyclePhysics& p
     stop_discs(state);
 }
 
-/// Mean top of columns one mean diameter wide, m, of the discs below a level. Columns without a
-/// disc have no top: the wedge over a gentle breakaway may be too thin for one. None at all:
-/// nothing.
-std::optional<double> mean_top(const State& state, double length, double level) {
+/// Mean top over the ground of columns one mean diameter wide, m, of the discs below a level of it.
+/// Columns without a disc have no top: the wedge over a gentle breakaway may be too thin for one.
+/// None at all: nothing.
+std::optional<double> mean_top(const State& state, double length, const TargetLine& ground,
+                               double level) {
     const ConstDiscColumns d = disc_columns(state);
     const double width = 2.0 * state.mean_radius;
     const auto columns = static_cast<std::size_t>(length / width);
@@ -99,9 +101,10 @@ std::optional<double> mean_top(const State& state, double length, double level) 
     std::vector<double> top(columns, none);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double x = d.x[i] / width;
-        if (d.y[i] + d.radius[i] <= level && x >= 0.0 && x < static_cast<double>(columns)) {
+        const double disc_top = d.y[i] + d.radius[i] - ground.height(d.x[i]);
+        if (disc_top <= level && x >= 0.0 && x < static_cast<double>(columns)) {
             double& t = top[static_cast<std::size_t>(x)];
-            t = std::max(t, d.y[i] + d.radius[i]);
+            t = std::max(t, disc_top);
         }
     }
     std::erase(top, none);
@@ -110,17 +113,17 @@ std::optional<double> mean_top(const State& state, double length, double level) 
     return std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(top.size());
 }
 
-/// Drops discs above the level, found by bisection, that brings the mean top to y = 0.
-void trim(State& state, double length) {
+/// Drops discs above the level, found by bisection, that brings the mean top to the ground.
+void trim(State& state, double length, const TargetLine& ground) {
     double low = -4.0 * state.mean_radius, high = 40.0 * state.mean_radius;
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (mean_top(state, length, middle).value_or(-1.0) < 0.0 ? low : high) = middle;
+        (mean_top(state, length, ground, middle).value_or(-1.0) < 0.0 ? low : high) = middle;
     }
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     std::vector<std::int32_t> kept;
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (d.y[i] + d.radius[i] <= high)
+        if (d.y[i] + d.radius[i] - ground.height(d.x[i]) <= high)
             kept.push_back(static_cast<std::int32_t>(i));
     reorder_discs(state, kept);
 }
@@ -155,13 +158,25 @@ void lay(State& state, const GenesisRequest& request) {
     }
 }
 
+/// Gives discs and detachment friction, for a slope to stand: that of the run, or where rock will
+/// be bonded enough for any slope that sand has.
+void hold_slope(State& state, RigidBase& base, const GenesisRequest& request) {
+    constexpr double rough = 1.0;
+    if (!request.hanging_wall.has_ground())
+        return;
+    base.surfaces.front().friction = request.base.surfaces.front().friction;
+    for (std::size_t m = 0; m < state.materials.size(); ++m)
+        state.materials[m].friction = request.bonds ? std::max(rough, request.materials[m].friction)
+                                                    : request.materials[m].friction;
+}
+
 /// Trims the packing to the ground, gives what is left its masses, and lets it come to rest.
 void level(State& state, const RigidBase& base, const GenesisRequest& request,
            const CyclePhysics& physics, int crossing, std::string_view stage,
            const Execution& execution,
            const std::function<void(std::string_view, double)>& report) {
     const HangingWallParameters& p = request.hanging_wall;
-    trim(state, p.length);
+    trim(state, p.length, ground_of(p));
     set_masses(state, p.rock_density, hanging_wall_area(p, request.base.surfaces.front().chain));
     lay(state, request);
     sort_discs(state);
@@ -235,6 +250,13 @@ double elastic_settlement(const GenesisRequest& request) {
                                 p.rock_density * request.physics.gravity * p.thickness);
 }
 
+/// The hanging wall with level ground, which is trimmed once it has settled.
+HangingWallParameters untrimmed(HangingWallParameters p) {
+    p.ground.clear();
+    p.ground_slope = 0.0;
+    return p;
+}
+
 /// Motion of discs counts from here.
 void begin_history(State& state) {
     const DiscColumns d = disc_columns(state);
@@ -255,7 +277,22 @@ double compression_at_depth(const Material& rock, double weight) {
     return weight / (0.6 * 0.5 * rock.normal_stiffness);
 }
 
+TargetLine ground_of(const HangingWallParameters& p) {
+    std::vector<Point> points;
+    for (const Point& one : p.ground)
+        points.push_back({one.x, -one.y});
+    if (points.empty() && p.ground_slope != 0.0) {
+        const double angle = std::abs(p.ground_slope) * pi / 180.0, from = p.ground_slope_from;
+        const double end = p.ground_slope > 0.0 ? p.length : 0.0;
+        points = {{from, 0.0}, {end, -std::abs(end - from) * sine(angle) / cosine(angle)}};
+        if (end < from)
+            std::swap(points[0], points[1]);
+    }
+    return TargetLine(points.empty() ? std::vector<Point>{{0.0, 0.0}} : points);
+}
+
 double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment) {
+    const TargetLine ground = ground_of(p);
     double area = 0.0, length = 0.0;
     for (const Segment& s : detachment)
         length += s.length;
@@ -267,7 +304,13 @@ double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment
             const double share = b.x > a.x ? std::max(0.0, (p.length - a.x) / (b.x - a.x)) : 0.0;
             b = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
         }
-        area -= 0.5 * (a.y + b.y) * (b.x - a.x);
+        if (p.has_ground())
+            area += 0.5 *
+                    (std::max(0.0, ground.height(a.x) - a.y) +
+                     std::max(0.0, ground.height(b.x) - b.y)) *
+                    (b.x - a.x);
+        else
+            area -= 0.5 * (a.y + b.y) * (b.x - a.x);
         a = b;
     }
     return area;
@@ -314,7 +357,7 @@ State make_hanging_wall(const GenesisRequest& request,
     for (Material& m : state.materials)
         m.friction = 0.0;
 
-    const double area = hanging_wall_area(p, request.base.surfaces.front().chain);
+    const double area = hanging_wall_area(untrimmed(p), request.base.surfaces.front().chain);
     const double density = p.rock_density / (1.0 - packing_porosity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
@@ -350,11 +393,12 @@ State make_hanging_wall(const GenesisRequest& request,
     } else {
         release_pressure(state, closed, physics, execution, report);
     }
+    hold_slope(state, open, request);
     level(state, open, request, physics, crossing, "second equilibrium", execution, report);
     // Soft rock rises when the load above is cut off.
     constexpr double uneven = 0.25; // mean radii
-    if (mean_top(state, p.length, std::numeric_limits<double>::infinity()).value_or(0.0) >
-        uneven * p.mean_radius)
+    if (mean_top(state, p.length, ground_of(p), std::numeric_limits<double>::infinity())
+            .value_or(0.0) > uneven * p.mean_radius)
         level(state, open, request, physics, crossing, "levelling", execution, report);
 
     soften(state, open, request, physics, crossing, execution, report);

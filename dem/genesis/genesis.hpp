@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace listric::dem {
 
@@ -21,7 +22,16 @@ struct HangingWallParameters {
     double radius_ratio = 1.66;   ///< largest over smallest radius
     double porosity = 0.175;      ///< of the closed packing before gravity is applied
     double rock_density = 2600.0; ///< bulk density of the packing, kg/m^3
+    /// Ground before extension: x and depth, m; none: it slopes, or is level.
+    std::vector<Point> ground = {};
+    double ground_slope = 0.0;      ///< degrees; above 0 it falls to the right, below 0 to the left
+    double ground_slope_from = 0.0; ///< x of the point from which it falls, m
+
+    bool has_ground() const { return !ground.empty() || ground_slope != 0.0; }
 };
+
+/// The ground before extension: y over x.
+TargetLine ground_of(const HangingWallParameters& p);
 
 /// Share of its height that rock between fixed sides loses under a weight per area, Pa; also the
 /// mean overlap of its discs over their radius. A packing's modulus of confined compression is some
@@ -29,7 +39,7 @@ struct HangingWallParameters {
 /// % with a quarter of its stiffness.
 double compression_at_depth(const Material& rock, double weight);
 
-/// Area between surface, detachment and right wall, m^2.
+/// Area between ground, detachment and right wall, m^2.
 double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment);
 
 /// Number of discs that fill an area, m^2, at the parameters' porosity.
@@ -73,7 +83,8 @@ struct GenesisRequest {
 /// Makes a settled, bonded hanging wall [paper, Fig. 2b]: random small discs in its shape, expanded
 /// under a lid to the wanted porosity, frictionless equilibrium, gravity without the lid,
 /// equilibrium, floaters grown until they carry load, the surface trimmed to its level, bonds at
-/// every contact that may be bonded.
+/// every contact that may be bonded. Where the ground slopes, discs have friction from the trim on,
+/// so that the slope stands.
 ///
 /// With layers, discs have a column `layer`: 0 for rock of none, n for the n-th. Discs are of a
 /// layer by their centre where the trimmed packing has come to rest. Soft layers are made of stiff

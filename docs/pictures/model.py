@@ -78,7 +78,7 @@ def main():
         word(8.9, 8.6, "synthetic fault", font_size="12"), word(22.6, 7.0, "antithetic fault", font_size="12"),
         word(30, 7.6, "hanging wall (discs)"), word(-5.6, 9.5, "footwall,"), word(-5.6, 10.7, "rigid or"), word(-5.6, 11.9, "elastic"),
         word(13.2, 16.3, "sole-out point", "end"), line([(13.3, 16.0), (15, 15)], stroke="#1d2730", stroke_width=0.8),
-        word(17.5, 16.1, "detachment: its material moves with the wall"),
+        word(17.5, 16.1, "detachment: a sheet that moves with the wall"),
         word(wall - 0.4, -1.5, "right wall, moves away", "middle"),
         word(28, -0.35, "original surface, depth 0", font_size="12"),
         line([(-6, 18.1), (end, 18.1)], stroke="#5b6770", stroke_width=0.8, stroke_dasharray="3 4"),

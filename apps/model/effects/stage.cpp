@@ -3,6 +3,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
+#include "apps/scene/base_words.hpp"
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
 #include "dem/events/stage_change.hpp"
@@ -160,14 +161,18 @@ std::optional<double> rest_strain(const Observation& now) {
 std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
-    for (const dem::MotionStage& one : motion.stages) {
+    const Stages& stages = *scene.find<Stages>();
+    for (std::size_t k = 0; k < stages.size(); ++k) {
+        const dem::MotionStage& one = motion.stages[k];
         const double years = (one.end - one.start).m / scene.extension.rate;
         const double way = one.slope * (one.end - one.start).m;
-        text += fmt::format("  to {:g} km of travel: {}, {:g} Myr\n", one.end.m / 1e3,
+        text += fmt::format("  to {:g} km of travel: {}, {:g} Myr{}\n", one.end.m / 1e3,
                             way == 0.0  ? std::string("pause")
                             : way > 0.0 ? fmt::format("{:g} km of extension", way / 1e3)
                                         : fmt::format("{:g} km of shortening", -way / 1e3),
-                            years / 1e6);
+                            years / 1e6,
+                            stages[k].base && way != 0.0 ? ", base: " + base_name(*stages[k].base)
+                                                         : "");
     }
     return text;
 }

@@ -25,9 +25,10 @@ std::vector<std::string> results_of(RunView& run) {
     const std::vector<double> depth = smoothed_depth(profile);
     Results results{.measures = run.measured(),
                     .faults = run.faults(),
-                    .quality = archive::quality_checks(parse_json(run.summary),
-                                                       {.base_moves = run.parts.base_moves,
-                                                        .mean_radius = run.state().mean_radius})};
+                    .quality = archive::quality_checks(
+                        parse_json(run.summary), {.base_moves = run.parts.base_moves,
+                                                  .mean_radius = run.state().mean_radius,
+                                                  .base_friction = base_friction(run.scene)})};
     if (!depth.empty())
         results.basin_depth = std::ranges::max(depth);
     return result_lines(results);

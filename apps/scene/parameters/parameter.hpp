@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -49,8 +50,11 @@ template <class T> struct Place {
 /// An enumeration, a switch or a string with few allowed values, seen as one of its names.
 struct Choice {
     std::vector<std::string_view> names;
+    /// Empty: none of them.
     std::string_view (*get)(const void* object, const std::vector<std::string_view>& names);
     void (*set)(void* object, const std::vector<std::string_view>& names, std::string_view name);
+    /// What was a name once, and the name now: older scenes can be read.
+    std::vector<std::pair<std::string_view, std::string_view>> former = {};
 };
 
 /// The value behind a parameter.
@@ -121,7 +125,7 @@ constexpr auto at = Place<std::remove_cvref_t<decltype(detail::get<Path...>(null
     detail::get<Path...>, detail::reach<Path...>};
 
 /// A choice at a path of members: names in the order of the enumeration; of a switch the first
-/// means true; a string is one of them.
+/// means true; a string is one of them; what is behind an optional may be none.
 template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
     using T = std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>;
     using Names = std::vector<std::string_view>;
@@ -139,6 +143,8 @@ template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
                     return value;
                 else if constexpr (std::is_same_v<T, bool>)
                     return all[value ? 0 : 1];
+                else if constexpr (requires { value.has_value(); })
+                    return value ? all[static_cast<std::size_t>(*value)] : std::string_view();
                 else
                     return all[static_cast<std::size_t>(value)];
             },
@@ -148,9 +154,19 @@ template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
                     value = name;
                 else if constexpr (std::is_same_v<T, bool>)
                     value = name == all[0];
+                else if constexpr (requires { value.has_value(); })
+                    value = static_cast<typename T::value_type>(decltype(number_of){}(all, name));
                 else
                     value = static_cast<T>(decltype(number_of){}(all, name));
-            }};
+            },
+            {}};
+}
+
+/// A dem::BaseKind at a path of members.
+template <auto... Path> Choice base_kinds() {
+    Choice choice = one_of<Path...>({"sheet", "rests", "ramp"});
+    choice.former = {{"moves", "sheet"}};
+    return choice;
 }
 
 /// "above 0, at most 10"; empty if every number is allowed.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/genesis/detachment.hpp"
 #include "dem/motion.hpp"
 
 #include <optional>
@@ -16,11 +17,11 @@ inline constexpr const char* travel_column = "travel_m";
 
 /// A table [[stage]]: a way of the wall, or a pause.
 struct StageParameters {
-    std::optional<double> distance; ///< of the wall, m; below 0: shortening
-    std::optional<double> pause;    ///< a
-    std::optional<double> rate;     ///< m/a; none: that of [extension]
-    std::optional<double> speed;    ///< in the model, m/s; none: that of [extension]
-    bool base_moves = true;         ///< the detachment's conveyor goes with the wall
+    std::optional<double> distance;    ///< of the wall, m; below 0: shortening
+    std::optional<double> pause;       ///< a
+    std::optional<double> rate;        ///< m/a; none: that of [extension]
+    std::optional<double> speed;       ///< in the model, m/s; none: that of [extension]
+    std::optional<dem::BaseKind> base; ///< none: that of the detachment
     std::optional<double> detachment_friction;
     std::optional<double> sediment_friction;
     dem::SurfaceWork surface_work = dem::SurfaceWork::both;

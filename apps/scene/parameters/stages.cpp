@@ -58,9 +58,9 @@ void check_each(const Stages& stages, const Refuse& refuse) {
 void check_ways(const Scene& scene, const Stages& stages, const Refuse& refuse) {
     if (scene.stretching)
         for (std::size_t k = 0; k < stages.size(); ++k)
-            if (!stages[k].base_moves)
-                refuse(path_of(k, "base"), "is \"rests\", but [stretching] moves what lies on it; "
-                                           "leave it out");
+            if (stages[k].base.value_or(BaseKind::sheet) != BaseKind::sheet)
+                refuse(path_of(k, "base"), "is of a detachment, but [stretching] moves what lies "
+                                           "on it; leave it out");
     const double arcs = scene.detachment ? end_of_arcs(scene) : 0.0;
     const double room = least_room * scene.hanging_wall.thickness;
     double position = 0.0;
@@ -108,10 +108,10 @@ const std::vector<Parameter>& stage_parameters() {
         {"speed_m_per_s", at<&P::speed>, "m/s", between(1e-6, 1e3), "",
          "speed in the model; default: extension.speed_m_per_s",
          "Raising it shortens the stage in proportion, and forces balance worse.", between(0.5, 2)},
-        {"base", one_of<&P::base_moves>({"moves", "rests"}), "", ranges::any, "",
-         "whether the detachment's base goes with the wall, or the wall alone moves",
-         "With \"rests\" the wall pushes, and friction decides how much of it the detachment "
-         "takes."},
+        {"base", base_kinds<&P::base>(), "", ranges::any, "",
+         "part of the base that moves with the wall in this stage; default: detachment.base",
+         "With \"rests\" the wall alone pushes, and friction decides how much of it the "
+         "detachment takes."},
         {"detachment_friction", at<&P::detachment_friction>, "", ranges::friction, "",
          "friction of the detachment in this stage; default: detachment.friction",
          "Lowering it lets more of the shortening go down the detachment where the base rests."},
@@ -129,7 +129,10 @@ const std::vector<Parameter>& stage_parameters() {
 }
 
 void complete_stages(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {
-    const Stages& stages = *scene.find<Stages>();
+    Stages& stages = *scene.find<Stages>();
+    if (scene.detachment)
+        for (StageParameters& one : stages)
+            one.base = one.base.value_or(scene.detachment->base);
     check_each(stages, refuse);
     const double travel = make_motion(scene).stages.back().end.m;
     // A run's own record has it.

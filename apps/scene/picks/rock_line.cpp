@@ -1,5 +1,6 @@
 #include "apps/scene/picks/rock_line.hpp"
 
+#include "apps/scene/base_words.hpp"
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/toml/differences.hpp"
 #include "apps/scene/toml/file_names.hpp"
@@ -156,7 +157,8 @@ std::string rock_line(const Scene& scene, const std::optional<RockOrigins>& orig
             if (std::ranges::find(named, origin.of) == named.end())
                 parts.push_back(fmt::format("{}: {}{}", origin.of, origin.name, changes(origin)));
     if (scene.detachment)
-        parts.push_back(fmt::format("detachment friction {:g}", scene.detachment->friction));
+        parts.push_back(fmt::format("detachment: {}, friction {:g}",
+                                    base_name(scene.detachment->base), scene.detachment->friction));
     if (scene.stretching)
         parts.push_back(fmt::format("base friction {:g}", scene.stretching->friction));
     return fmt::format("{}", fmt::join(parts, "; "));

@@ -22,7 +22,8 @@ using RockOrigins = std::vector<RockOrigin>;
 RockOrigins rock_origins(const Scene& scene);
 
 /// The rocks of a scene with discs and what matters about them: "rock: mat18-b; sediment: mud,
-/// friction changed; faults: mat18-w-frictional (friction 0.2); detachment friction 0.5".
+/// friction changed; faults: mat18-w-frictional (friction 0.2); detachment: sheet (pulls), friction
+/// 0.5".
 std::string rock_line(const Scene& scene);
 
 /// Line of a run whose origins were recorded at its start, or not.

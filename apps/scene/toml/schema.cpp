@@ -130,7 +130,10 @@ struct Default {
     Json operator()(const Place<std::string>& x) const {
         return x.get(object).empty() ? Json() : Json(x.get(object));
     }
-    Json operator()(const Choice& choice) const { return choice.get(object, choice.names); }
+    Json operator()(const Choice& choice) const {
+        const std::string_view name = choice.get(object, choice.names);
+        return name.empty() ? Json() : Json(name);
+    }
     Json operator()(const Place<std::vector<double>>& x) const { return x.get(object); }
     template <class T> Json operator()(const Place<std::vector<T>>&) const { return nullptr; }
 };

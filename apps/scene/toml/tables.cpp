@@ -41,6 +41,18 @@ std::vector<Parameter> hanging_wall_parameters() {
          "bulk density of the packing",
          "Raising it raises all stresses in proportion, and with them the strength that friction "
          "gives."},
+        {"ground", at<&P::ground>, "", between(0, 1e5), "",
+         "ground before extension as points of x and depth, level beyond the first and the last; "
+         "default: level at depth 0",
+         "Trims the packing to a slope, a wedge or a pile; rock without bonds keeps no slope "
+         "steeper than its friction holds."},
+        {"ground_slope_deg", at<&P::ground_slope>, "deg", between(-60, 60), "",
+         "slope of the ground from ground_slope_from_m on, in place of ground: above 0 it falls to "
+         "the right, below 0 to the left",
+         "Trims the packing to a wedge.", between(-30, 30)},
+        {"ground_slope_from_m", at<&P::ground_slope_from>, "m", between(0, 1e6), "",
+         "x of the point from which the ground slopes; it is level on the other side",
+         "Moves the wedge along the section."},
     };
 }
 
@@ -50,8 +62,16 @@ std::vector<Parameter> detachment_parameters() {
         {"start_dip_deg", at<&P::start_dip>, "deg", ranges::dip, "", "dip at the breakaway",
          "Lowering it moves area from the collapse graben to the halfgraben at the breakaway.",
          between(60, 90)},
+        {"base", base_kinds<&P::base>(), "", ranges::any, "",
+         "part of the base that moves with the right wall and pulls the discs: \"sheet\", the "
+         "whole "
+         "detachment; \"rests\", nothing; \"ramp\", the flat from the sole-out point on. What "
+         "rests "
+         "resists",
+         "With \"rests\" the hanging wall breaks at the right wall; with \"ramp\" it slides down "
+         "the ramp or yields inside, as friction decides."},
         {"friction", at<&P::friction>, "", ranges::friction, "",
-         "friction between discs and the moving base",
+         "friction between discs and the detachment",
          "Raising it from 0.1 to 0.5 turns the head block of lis1 by 0.3 degrees less at 1 km of "
          "extension.",
          between(0.1, 0.85)},
@@ -172,6 +192,10 @@ std::vector<Parameter> extension_parameters() {
         {"ramp_s", at<&P::ramp>, "s", between(0, 1e6), "",
          "model time over which the speed grows from rest; its default depends on the accuracy",
          "Lowering it starts the motion with a jolt."},
+        {"wall_friction", at<&P::wall_friction>, "", ranges::friction, "",
+         "friction between discs and the right wall, and the left wall of [stretching]",
+         "Raising it hangs the rock beside the wall on it, and turns the planes that begin there.",
+         between(0, 0.6)},
     };
 }
 

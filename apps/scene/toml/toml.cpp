@@ -138,7 +138,10 @@ struct Reader {
     }
 
     void operator()(const Choice& choice) const {
-        const std::string& name = string(entry, parameter);
+        const std::string& given = string(entry, parameter);
+        const auto former =
+            std::ranges::find(choice.former, given, [](const auto& names) { return names.first; });
+        const std::string name(former == choice.former.end() ? given : former->second);
         if (std::ranges::find(choice.names, name) == choice.names.end())
             fail(entry,
                  fmt::format("unknown value ({}), {}", quoted(name), advice(name, choice.names)));
@@ -460,7 +463,8 @@ struct Writer {
     std::string operator()(const Place<bool>& x) const { return x.get(object) ? "true" : "false"; }
     std::string operator()(const Place<std::string>& x) const { return quoted(x.get(object)); }
     std::string operator()(const Choice& choice) const {
-        return quoted(std::string(choice.get(object, choice.names)));
+        const std::string_view name = choice.get(object, choice.names);
+        return name.empty() ? "" : quoted(std::string(name));
     }
     std::string operator()(const Place<std::vector<double>>& x) const {
         std::vector<std::string> items;

@@ -240,7 +240,7 @@ TEST_F(Stages, AreRefusedWithTheirLine) {
                 AllOf(HasSubstr("stage[0].rate_m_per_a"), HasSubstr("extension.rate_m_per_a")));
     EXPECT_THAT(of(out + "[[stage]]\npause_a = 100.0\nrate_m_per_a = 0.1\n"),
                 AllOf(HasSubstr("stage[1].rate_m_per_a"), HasSubstr("leave it out")));
-    EXPECT_THAT(of(out + "[[stage]]\nbase = \"moved\"\n"), HasSubstr("moves"));
+    EXPECT_THAT(of(out + "[[stage]]\nbase = \"moved\"\n"), HasSubstr("sheet"));
     EXPECT_THAT(refusal(text(out), {"extension.distance_m=300"}),
                 AllOf(HasSubstr("--set extension.distance_m=300"), HasSubstr("beside [[stage]]")));
     EXPECT_THAT(refusal(text(out), {"energy={}"}), HasSubstr("leave out one of the two"));

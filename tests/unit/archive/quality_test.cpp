@@ -53,6 +53,27 @@ TEST(Quality, AsksEveryQuestionOfAGoodRun) {
                                      "0.95 to 1.03", "5 to interpret", "lis1: 0.96 to 1.12"));
 }
 
+TEST(Quality, FrictionThatNothingUsesIsTold) {
+    JsonObject run = good_run();
+    run["ramp_mobilised_friction"] = 0.11;
+    run["ramp_sliding_share"] = 0.004;
+    run["flat_mobilised_friction"] = -0.02;
+    run["flat_sliding_share"] = 0.0;
+    const auto checks_with = [&](std::optional<double> friction) {
+        return quality_checks(run, {.mean_radius = 93.1, .base_friction = friction});
+    };
+    EXPECT_EQ(check_named(checks_with({}), "flat_mobilised_friction").value, "");
+    const QualityCheck idle = check_named(checks_with(0.5), "flat_mobilised_friction");
+    EXPECT_EQ(idle.value, "ramp 0.11, 0 % slides; flat 0.02, 0 % slides");
+    EXPECT_EQ(idle.bound, "at most 0.5");
+    EXPECT_EQ(idle.verdict, QualityVerdict::note);
+    EXPECT_THAT(idle.words, testing::StartsWith("A higher friction of the base changes nothing"));
+    EXPECT_THAT(verdict_lines(checks_with(0.5))[0],
+                testing::HasSubstr("the base's friction of 0.5 is not mobilised (ramp 0.11"));
+    run["ramp_sliding_share"] = 0.6;
+    EXPECT_EQ(check_named(checks_with(0.5), "flat_mobilised_friction").brief, "");
+}
+
 TEST(Quality, StillGroundKeepsItsLevel) {
     JsonObject run = good_run();
     for (const auto& [rise, verdict] :

@@ -174,6 +174,54 @@ TEST(Genesis, LevelsTheSurfaceAboveAGentleBreakaway) {
         }
 }
 
+TEST(Genesis, GroundIsALineOrASlope) {
+    HangingWallParameters p;
+    EXPECT_FALSE(p.has_ground());
+    EXPECT_EQ(ground_of(p).height(12e3), 0.0);
+    p.ground_slope = 45.0;
+    p.ground_slope_from = 30e3;
+    EXPECT_EQ(ground_of(p).height(20e3), 0.0);
+    EXPECT_NEAR(ground_of(p).height(34e3), -4e3, 1e-6);
+    // The corner beyond 30 km is cut off: 10 km by 10 km.
+    const Chain floor{line({0.0, -15e3}, {90e3, -15e3})};
+    EXPECT_NEAR(hanging_wall_area(p, floor), 40e3 * 15e3 - 0.5 * 10e3 * 10e3, 1.0);
+    p.ground_slope = -45.0; // 15 km deep at 15 km; there is nothing beyond
+    EXPECT_NEAR(ground_of(p).height(20e3), -10e3, 1e-6);
+    EXPECT_NEAR(hanging_wall_area(p, floor), 10e3 * 15e3 + 0.5 * 15e3 * 15e3, 10.0);
+    p.ground = {{10e3, 15e3}, {20e3, 5e3}};
+    p.ground_slope = 0.0;
+    EXPECT_NEAR(ground_of(p).height(15e3), -10e3, 1e-9);
+    EXPECT_NEAR(hanging_wall_area(p, floor), 0.5 * 10e3 * 10e3 + 20e3 * 10e3, 10.0);
+}
+
+TEST(Genesis, TrimsSandToASlopeThatStands) {
+    // 15 degrees, below the angle of repose of discs with a friction of 0.5 that are rough below.
+    GenesisRequest r = request(500.0, 1);
+    r.base.surfaces[0].chain = {line({0.0, 0.0}, {0.0, -15e3}), line({0.0, -15e3}, {90e3, -15e3})};
+    r.base.surfaces[0].friction = 0.5;
+    r.bonds.reset();
+    for (Material& m : r.materials)
+        m.friction = 0.5;
+    r.hanging_wall.ground_slope = 15.0;
+    r.hanging_wall.ground_slope_from = 10e3;
+    const State state = make(r);
+    const TargetLine ground = ground_of(r.hanging_wall);
+    const ConstDiscColumns d = disc_columns(state);
+    double left = -1e9, right = -1e9; // tops over the ground, beside both ends of the slope
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double top = d.y[i] + d.radius[i] - ground.height(d.x[i]);
+        if (d.x[i] > 9e3 && d.x[i] < 14e3)
+            left = std::max(left, top);
+        if (d.x[i] > 34e3)
+            right = std::max(right, top);
+    }
+    EXPECT_NEAR(left, 250.0, 350.0); // of the highest discs, not of the mean
+    EXPECT_NEAR(right, 250.0, 350.0);
+    const double rock = 2600.0 * hanging_wall_area(r.hanging_wall, r.base.surfaces[0].chain);
+    EXPECT_NEAR(state.ledger.initial, rock, 1e-9 * rock);
+    EXPECT_EQ(state.materials[basement].friction, 0.5f);
+}
+
 TEST(Genesis, SeedDecides) {
     State first = make(request(1000.0, 1));
     const State again = make(request(1000.0, 1));

@@ -34,7 +34,7 @@ Motion there_and_back() {
          .start_position = Extension(500.0),
          .slope = -0.5,
          .speed = 2.0,
-         .base_moves = false,
+         .runs_from = runs_nowhere,
          .detachment_friction = 0.1,
          .surface = SurfaceWork::none},
     };
@@ -49,7 +49,7 @@ TEST(Motion, WithoutStagesIsTheTravel) {
         const MotionInstant now = motion.at(time, Travel(123.4));
         EXPECT_EQ(now.travel_speed, motion.speed_at(time));
         EXPECT_EQ(now.speed, motion.speed_at(time));
-        EXPECT_EQ(now.conveyor, 1.0);
+        EXPECT_EQ(now.runs_from, runs_everywhere);
         EXPECT_FALSE(now.friction);
     }
     EXPECT_FALSE(motion.shortens(Travel(500.0)));
@@ -83,7 +83,7 @@ TEST(Motion, StagesSayHowWallBaseAndFrictionAre) {
     EXPECT_EQ(rest.speed, 0.0);
     EXPECT_EQ(rest.travel_speed, 2.0); // the clock goes on
     EXPECT_EQ(back.speed, -1.0);
-    EXPECT_EQ(back.conveyor, 0.0);
+    EXPECT_EQ(back.runs_from, runs_nowhere);
     EXPECT_EQ(back.friction, 0.1);
 
     const Surface detachment{.name = "", .chain = {}, .friction = 0.5, .conveyor = 1.0},
@@ -92,8 +92,8 @@ TEST(Motion, StagesSayHowWallBaseAndFrictionAre) {
     EXPECT_EQ(friction_of(detachment, now), 0.1);
     EXPECT_EQ(friction_of(wall, now), 0.0); // it is the detachment's
     EXPECT_EQ(friction_of(detachment, base_instant(out, 250.0)), 0.5);
-    EXPECT_EQ(surface_velocity(detachment, now, 0.0, {0.0, 1.0}), (Point{0.0, 0.0}));
-    EXPECT_EQ(surface_velocity(wall, now, 0.0, {-1.0, 0.0}).x, -1.0);
+    EXPECT_EQ(surface_velocity(detachment, now, 0.0, 0.0, {0.0, 1.0}), (Point{0.0, 0.0}));
+    EXPECT_EQ(surface_velocity(wall, now, 0.0, 0.0, {-1.0, 0.0}).x, -1.0);
 }
 
 TEST(Motion, PassesZeroWithAConstantAcceleration) {
@@ -124,6 +124,46 @@ TEST(Motion, PassesZeroWithAConstantAcceleration) {
     EXPECT_EQ(before, -1.0);
     EXPECT_NEAR(time, 20.0 + 40.0 + 40.0 + 20.0, 0.01 * 120.0);
     EXPECT_NEAR(motion.time_at(Travel(140.0)) - motion.time_at(Travel(60.0)), time, 0.01 * time);
+}
+
+TEST(Motion, TheBaseRunsWhereItsKindSays) {
+    // 30 degrees down to a flat at 3 km.
+    DetachmentParameters detachment;
+    detachment.start_dip = 30.0;
+    detachment.segments = {straight(6e3), straight(20e3, 0.0)};
+    const Chain chain = detachment_chain(detachment, 0.0);
+    const double soles_out = 6e3 * std::cos(pi / 6.0);
+    EXPECT_NEAR(sole_out(chain), soles_out, 1e-9);
+    EXPECT_EQ(runs_from(BaseKind::sheet, detachment), runs_everywhere);
+    EXPECT_EQ(runs_from(BaseKind::rests, detachment), runs_nowhere);
+    EXPECT_EQ(runs_from(BaseKind::ramp, detachment), sole_out(chain));
+
+    Motion motion{2.0, 0.0};
+    motion.runs_from = sole_out(chain);
+    const Surface slides{.name = "", .chain = chain, .conveyor = 1.0};
+    const BaseInstant now = base_instant(motion.at(1.0, Travel(2.0)), 2.0);
+    // Slip of a disc at rest, 100 m over the ramp and over the flat: over the flat as the base
+    // runs.
+    const auto slip = [&](Point p) {
+        return base_contact_motion(slides, now, {p.x, p.y, 0.0, 0.0, 0.0, 150.0})->slip_rate;
+    };
+    const double s = std::sin(pi / 6.0), c = std::cos(pi / 6.0);
+    EXPECT_EQ(slip({3e3 * c + 100.0 * s, -3e3 * s + 100.0 * c}), 0.0);
+    EXPECT_EQ(slip({8e3, -2900.0}), 2.0);
+    // Over the end of the ramp a disc stands beyond it and rests on it all the same.
+    EXPECT_EQ(slip({soles_out - 10.0 * c + 100.0 * s, -3e3 + 10.0 * s + 100.0 * c}), 0.0);
+}
+
+TEST(Motion, AChainSolesOutWhereItStaysLevel) {
+    EXPECT_EQ(sole_out({}), 0.0);
+    EXPECT_EQ(sole_out({line({0.0, -5.0}, {9.0, -5.0})}), 0.0);
+    EXPECT_NEAR(sole_out(listric_chain(15e3, 40e3)), 15e3, 1e-9);
+    EXPECT_NEAR(sole_out({arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 0.5 * pi)}), 7e3, 1e-9); // at its end
+    // Not at the flat between two ramps.
+    EXPECT_EQ(sole_out({line({0.0, 0.0}, {1.0, -1.0}), line({1.0, -1.0}, {3.0, -1.0}),
+                        line({3.0, -1.0}, {4.0, -3.0}), line({4.0, -3.0}, {6.0, -3.0}),
+                        line({6.0, -3.0}, {9.0, -3.0})}),
+              4.0);
 }
 
 TEST(Motion, TheFootwallsTopRestsAndHoldsTheCorner) {

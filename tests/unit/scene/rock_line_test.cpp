@@ -28,8 +28,8 @@ using support::contents;
 constexpr const char* shipped =
     "rock: mat18-b; faults: mat18-w-frictional (friction 0.2); sediment: sediment; detachment "
     "friction 0.5";
-constexpr const char* without_sediment =
-    "rock: mat18-b; faults: mat18-w-frictional (friction 0.2); detachment friction 0.5";
+constexpr const char* without_sediment = "rock: mat18-b; faults: mat18-w-frictional (friction "
+                                         "0.2); detachment: sheet (pulls), friction 0.5";
 
 class RockLine : public testing::Test {
 protected:
@@ -89,15 +89,16 @@ TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
 
 TEST_F(RockLine, NamesWhatIsInForce) {
     EXPECT_EQ(line("pure-shear"), "rock: mat18-b; faults: mat18-w (friction 0); base friction 0.3");
-    EXPECT_EQ(line("lis1-0"), "rock: mat18-b; sediment: sediment; detachment friction 0.5");
+    EXPECT_EQ(line("lis1-0"),
+              "rock: mat18-b; sediment: sediment; detachment: sheet (pulls), friction 0.5");
     // The name is what the scene says; what it changes is told beside it, though the numbers may be
     // those of another rock then.
     EXPECT_EQ(line("lis1", {"fault_weakening.friction=0.3", "detachment.friction=0.1"}),
               "rock: mat18-b; faults: mat18-w-frictional, friction changed (friction 0.3); "
-              "sediment: sediment; detachment friction 0.1");
+              "sediment: sediment; detachment: sheet (pulls), friction 0.1");
     EXPECT_EQ(line("lis1", {"fault_weakening.friction=0"}),
               "rock: mat18-b; faults: mat18-w-frictional, friction changed (friction 0); sediment: "
-              "sediment; detachment friction 0.5");
+              "sediment; detachment: sheet (pulls), friction 0.5");
     EXPECT_EQ(line("lis1", {"sedimentation.friction=0.3"}).find("sediment: mat18-b"),
               std::string::npos);
     EXPECT_THAT(line("lis1-mud"), testing::HasSubstr("; sediment: sediment, friction changed;"));
@@ -127,7 +128,7 @@ TEST_F(RockLine, OfARecordAreKnownByWhatWasWrittenDown) {
     EXPECT_FALSE(archive::known_rocks(record));
     EXPECT_EQ(rock_line(record, archive::known_rocks(record)),
               "rock: not recorded; faults: not recorded (friction 0.5); sediment: not recorded; "
-              "detachment friction 0.5");
+              "detachment: sheet (pulls), friction 0.5");
     for (const char* damaged : {"{", "[]", R"({"rocks": 3})", R"({"rocks": [{"of": 3}]})"}) {
         std::ofstream(run / "status.json") << damaged;
         EXPECT_FALSE(archive::known_rocks(record)) << damaged;
@@ -139,8 +140,9 @@ TEST_F(RockLine, OfARecordAreKnownByWhatWasWrittenDown) {
 
 TEST_F(RockLine, OlderVersionsTookTable1) {
     const std::string file = write("old.toml", support::small_halfgraben() + "[fault_weakening]\n");
-    EXPECT_EQ(rock_line(load_scene({.scene = file, .former_rocks = true})),
-              "rock: mat18-b; faults: mat18-w (friction 0); detachment friction 0.5");
+    EXPECT_EQ(
+        rock_line(load_scene({.scene = file, .former_rocks = true})),
+        "rock: mat18-b; faults: mat18-w (friction 0); detachment: sheet (pulls), friction 0.5");
     // A rock that a scene names holds.
     const std::string named = file.substr(0, file.size() - 5) + "-named.toml";
     write("old-named.toml", contents(file) + "[materials]\nweakened = 'mat18-w-calibrated'\n");
