@@ -1,6 +1,6 @@
 """Runs that the drawing page saves: the folders that the program leaves. `.ci/run page` calls it.
 
-    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page_save
+    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page.page_save
 """
 
 import csv
@@ -9,7 +9,7 @@ import re
 import unittest
 
 from program import listric
-from page_run import RunningPage
+from page.page_run import RunningPage
 
 # Of the machine, or of the way to the result.
 OF_THE_RUN = {"wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s", "provenance", "cycle_level",

@@ -1,11 +1,11 @@
 """The drawing page where memory, a worker or a hand fails, and on a telephone. `.ci/run page` calls it.
 
-    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page_limits
+    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page.page_limits
 """
 
 import unittest
 
-from page_run import RunningPage
+from page.page_run import RunningPage
 
 # The module whose memory may have no more than so many pages of 64 kB: that section's limits become two.
 LIMITED = """

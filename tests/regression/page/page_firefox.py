@@ -1,6 +1,6 @@
 """The drawing page in Firefox, where that is installed (Debian: firefox-esr). `.ci/run page` calls it.
 
-    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page_firefox
+    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page.page_firefox
 """
 
 import json

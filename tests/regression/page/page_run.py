@@ -1,6 +1,6 @@
 """Runs in the drawing page, by the model in it: the same words and bits as the program's. `.ci/run page` calls it.
 
-    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page_run
+    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page.page_run
 """
 
 import json
