@@ -59,7 +59,7 @@ install(EXPORT listric NAMESPACE listric:: FILE ListricTargets.cmake DESTINATION
 configure_package_config_file(cmake/ListricConfig.cmake.in ListricConfig.cmake
   INSTALL_DESTINATION ${package} PATH_VARS share)
 write_basic_package_version_file(ListricConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake cmake/FindLibcsv.cmake
+install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake
   ${PROJECT_BINARY_DIR}/ListricConfigVersion.cmake DESTINATION ${package} COMPONENT development)
 
 # Folders are made under the umask, and CMake cannot set another (debian_files.cmake mends packages).

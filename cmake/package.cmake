@@ -40,5 +40,5 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblistric-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers, for CMake projects.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libfmt-dev, libtomlplusplus-dev, nlohmann-json3-dev, libpugixml-dev, libhdf5-dev, zlib1g-dev, libcsv-dev, pkg-config")
+  "libfmt-dev, libtomlplusplus-dev, nlohmann-json3-dev, libpugixml-dev, libhdf5-dev, zlib1g-dev, pkg-config")
 include(CPack)

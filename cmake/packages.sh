@@ -1,6 +1,6 @@
 # Packages of Debian 12 and 13, for the launcher and .ci/run, which read this file.
 packages=(g++ cmake ninja-build pkg-config libhdf5-dev libtomlplusplus-dev libcli11-dev libfmt-dev
-    nlohmann-json3-dev libeigen3-dev libpugixml-dev zlib1g-dev libcsv-dev)
+    nlohmann-json3-dev libeigen3-dev libpugixml-dev zlib1g-dev)
 figure_packages=(libjs-dygraphs python3-matplotlib) # without them the program runs and draws less
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-segyio python3-gdal python3-jsonschema
     groff-base chromium chromium-driver python3-selenium python3-h5py python3-pandas

@@ -1,6 +1,6 @@
 #!/bin/bash
 # wasm-libraries.sh FOLDER: sources of Debian in FOLDER/sources, and in FOLDER LLVM's C++ library for WebAssembly, made of
-# them: Debian's own knows neither exceptions nor paths. pugixml and libcsv are compiled with the module.
+# them: Debian's own knows neither exceptions nor paths. pugixml is compiled with the module.
 set -eo pipefail
 own=$(realpath "$(dirname "$0")")
 mkdir -p "$1"/{sources,lists/partial,headers/sys}
@@ -18,11 +18,10 @@ own_lists=(-q -o Dir::Etc::sourcelist="$folder/sources.list" -o Dir::Etc::source
     -o Dir::State::lists="$folder/lists" -o APT::Sandbox::User=root) # its user may not write here
 cd sources
 apt-get "${own_lists[@]}" update >/dev/null
-apt-get "${own_lists[@]}" source --tar-only --download-only llvm-toolchain-19 pugixml libcsv >/dev/null
+apt-get "${own_lists[@]}" source --tar-only --download-only llvm-toolchain-19 pugixml >/dev/null
 tar -xf llvm-toolchain-19_*.orig.tar.xz --strip-components=1 --wildcards \
     '*/libcxx' '*/libcxxabi' '*/libunwind' '*/runtimes' '*/cmake'
 tar -xf pugixml_*.orig.tar.* --strip-components=2 --wildcards '*/src/pugi*'
-tar -xf libcsv_*.orig.tar.* --strip-components=1 --wildcards '*/libcsv.c' '*/csv.h'
 cd ..
 
 # No tests, no threads; `UNIX`: WASI is near enough to it.

@@ -5,7 +5,7 @@ The pages are written for GitHub, where `$...$` and `$$...$$` are formulas and l
 Formulas are set here, by KaTeX, so that a page needs no script; style and fonts are copied into the
 site. The program, which LISTRIC names, else the newest of build/, prints help and measures; the rooms are drawn from the
 includes. Where LISTRIC names it, the site has the page of `listric draw`, too, and where LISTRIC_RUN names a finished
-run, its report; the home page links to them. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
+run, its report; the home page links to them. Where the sources have the model for pages, its page runs scenes, too. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
 who hear the page.)
 """
 
@@ -47,6 +47,8 @@ console.log(JSON.stringify(formulas.map(([tex, displayMode]) =>
 """
 
 DEMOS = "try"  # folder of the site
+EXAMPLES = ("lis1", "lis2", "rfr")  # scenes that the page begins with, by what stands behind its #
+MODULE = ROOT / "apps/page/listric.wasm.gz"
 CALL = re.compile(r"^  ([a-z]+)  ", re.MULTILINE)  # in the list of all calls
 DRAWING = "reference/architecture.svg"
 MADE = tempfile.TemporaryDirectory(prefix="listric-site-")  # pages of this build
@@ -148,17 +150,24 @@ def make_pages(folder):
 
 
 def demos():
-    """Pages of the program by their files: what makes each, and its link's text."""
+    """Pages of the program by their files, and what makes each."""
     program, run = os.environ.get("LISTRIC"), os.environ.get("LISTRIC_RUN")
-    made = {"lis1-drawing.html": ([program, "draw", "lis1"], "draw a section")} if program else {}
+    made = {"draw.html": [program, "draw", "lis1"]} if program else {}
     if program and run:
-        made["report.html"] = ([program, "report", run], "explore a finished run")
+        made["report.html"] = [program, "report", run]
     return made
+
+
+def links_to_demos():
+    """Addresses and words."""
+    examples = [(f"draw.html#{name}", f"run <code>{name}</code>") for name in EXAMPLES] if MODULE.exists() else []
+    links = [("report.html", "explore a finished run")] if "report.html" in demos() else []
+    return examples + ([("draw.html", "draw a section")] if "draw.html" in demos() else []) + links
 
 
 def make_demos(site):
     Path(site, DEMOS).mkdir(exist_ok=True)
-    for name, (call, _) in demos().items():
+    for name, call in demos().items():
         ended = subprocess.run([*call, "--output", Path(site, DEMOS, name)], stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True)
         if ended.returncode:
@@ -166,10 +175,13 @@ def make_demos(site):
 
 
 def with_demos(markdown):
-    """The home page with links to the demos below its first picture's line."""
-    links = " · ".join(f'<a href="{DEMOS}/{name}">{text}</a>' for name, (_, text) in demos().items())
-    head, mark, rest = markdown.partition("\n## ")
-    return f"{head}\nTry it in the browser, without installing: {links}.\n{mark}{rest}" if links else markdown
+    """The home page with links to the demos below its first picture."""
+    if not demos():
+        return markdown
+    links = " · ".join(f'<a href="{DEMOS}/{address}">{text}</a>' for address, text in links_to_demos())
+    lack = "" if MODULE.exists() else " It runs nothing: these sources lack the model for pages, which `.ci/run page` makes."
+    head, mark, rest = markdown.partition("\n*`lis1`.")
+    return f"{head}\n**Try it now**, in this browser, without installing: {links}.{lack}\n{mark}{rest}"
 
 
 def on_page_markdown(markdown, page, config, files):
@@ -187,9 +199,12 @@ def on_page_content(html, page, config, files):
 
 
 def with_still(match):
-    still = match[1].replace(FILM, still_of(Path(FILM)).as_posix())
+    """The film, its last picture, and a link of both to the first demo."""
+    first = [f"{DEMOS}/{address}" for address, _ in links_to_demos()[:1]]
+    film = f'<a href="{first[0]}">{match[1]}</a>' if first else match[1]
+    still = film.replace(f'src="{FILM}"', f'src="{still_of(Path(FILM)).as_posix()}"')
     return (f'<div class="film"><input type="checkbox" id="stop-film"><label for="stop-film">Stop the film</label>'
-            f'<div class="moving">{match[1]}</div><div class="still">{still}</div></div>')
+            f'<div class="moving">{film}</div><div class="still">{still}</div></div>')
 
 
 def on_post_page(output, page, config):

@@ -184,7 +184,7 @@ std::string report_html(const ReportPage& page) {
     std::string scripts;
     for (const char* name :
          {"data.js", "colours.js", "painter.js", "section.js", "charts.js", "strata.js",
-          "gestures.js", "tables.js", "files.js", "words.js", "address.js", "page.js"})
+          "gestures.js", "tables.js", "files.js", "values.js", "words.js", "address.js", "page.js"})
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},

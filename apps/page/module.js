@@ -46,14 +46,18 @@ function systemOf(memory, textAt, tell) {
   };
 }
 
-/// Starts a module. `tell(isWarning, text)` is called for messages while it works.
-async function startModule(bytes, tell) {
+/// Starts a module. `tell(isWarning, text)` is called for messages while it works, `keep(path, bytes)` for files of a
+/// run after keepFiles().
+async function startModule(bytes, tell, keep) {
   let memory = null;
   const textAt = (at, size) => new TextDecoder().decode(new Uint8Array(memory.buffer, at, size));
   const noSuchCall = 52; // of WASI
   const system = systemOf(() => memory.buffer, textAt, tell);
   const wasi = new Proxy(system, {get: (known, name) => known[name] || (() => noSuchCall)});
-  const listric = {tell: (isWarning, at, size) => tell(Boolean(isWarning), textAt(at, size))};
+  const listric = {
+    tell: (isWarning, at, size) => tell(Boolean(isWarning), textAt(at, size)),
+    keep: (path, letters, at, size) => keep(textAt(path, letters), new Uint8Array(memory.buffer, at, size).slice()),
+  };
   const imports = {listric};
   const module = await WebAssembly.compile(bytes);
   for (const {module: from, name} of WebAssembly.Module.imports(module))
@@ -63,7 +67,11 @@ async function startModule(bytes, tell) {
   memory = exports.memory;
   exports._initialize();
 
-  const put = bytes => new Uint8Array(memory.buffer, exports.input(bytes.length), bytes.length).set(bytes);
+  // A call may move the memory: its buffer is asked for afterwards.
+  const put = bytes => {
+    const at = exports.input(bytes.length);
+    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+  };
   const call = (name, ...values) => {
     const done = exports[name](...values);
     const text = textAt(exports.result(), exports.result_size());
@@ -93,9 +101,12 @@ async function startModule(bytes, tell) {
     read: request => ask('read', request),
     begin: () => call('begin'),
     extend: (goal, seconds) => call('extend', goal, seconds),
-    measures: () => call('measures'),
-    faults: () => call('faults'),
+    keepFiles: () => call('keep_files'),
+    close: () => call('close'),
     /// x, y, radius, stratum, strain and depth at the start of each disc.
-    discs: count => new Float32Array(memory.buffer, exports.discs(), 6 * count).slice(),
+    discs(count) {
+      const at = exports.discs();
+      return new Float32Array(memory.buffer, at, 6 * count).slice();
+    },
   };
 }

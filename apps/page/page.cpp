@@ -2,8 +2,8 @@
 // what it should; result() is then what it found, as JSON, and otherwise why not, in the words of
 // the program.
 
-#include "apps/archive/tables/fault_fields.hpp"
-#include "apps/archive/tables/headline.hpp"
+#include "apps/archive/folder/json_file.hpp"
+#include "apps/archive/quality.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/drawing.hpp"
 #include "apps/run/driven_run.hpp"
@@ -11,7 +11,6 @@
 #include "apps/scene/toml/json_document.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/reading.hpp"
-#include "apps/support/fineness.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "dem/columns.hpp"
@@ -19,9 +18,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
+#include <cstddef>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -186,31 +186,6 @@ LISTRIC_EXPORT(extend) bool page_extend(double goal, double seconds) {
     });
 }
 
-/// All measures by name, and those that tell runs apart as people read them.
-LISTRIC_EXPORT(measures) bool page_measures() {
-    return done([] {
-        Json numbers = Json::object(), headline = Json::array();
-        for (const auto& [name, value] : run.value().measures())
-            numbers[name] = value;
-        for (const archive::Headline& one : archive::headline_of(numbers))
-            if (one.value)
-                headline.push_back({{"name", one.name}, {"value", archive::value_text(one)}});
-        return text_of({{"headline", headline}, {"measures", numbers}});
-    });
-}
-
-/// The active faults, as summary.json has them.
-LISTRIC_EXPORT(faults) bool page_faults() {
-    return done([] {
-        const measures::FaultReport& report = run.value().faults();
-        const double steps = fineness(run->state().mean_radius);
-        Json list = Json::array();
-        for (std::size_t k = 0; k < report.faults.size(); ++k)
-            list.push_back(archive::fault_object({report, k, steps}, archive::fault_fields()));
-        return text_of(list);
-    });
-}
-
 /// x, y, radius, stratum, total strain and depth at the start of each disc.
 LISTRIC_EXPORT(discs) const float* page_discs() {
     const dem::State& state = run->state();
@@ -227,4 +202,56 @@ LISTRIC_EXPORT(discs) const float* page_discs() {
               strain.empty() ? 0.0 : strain[i], -start_y[i]})
             discs.push_back(static_cast<float>(value));
     return discs.data();
+}
+
+// ---------------------------------------------------------------------------- the files of a run
+
+extern "C" __attribute__((import_module("listric"), import_name("keep"))) void
+keep_in_page(const char* path, std::size_t path_bytes, const void* data, std::size_t bytes);
+
+namespace listric {
+
+namespace {
+
+std::string kept_snapshot; // that was handed over last
+
+void keep(const std::string& path, std::span<const std::byte> bytes) {
+    keep_in_page(path.data(), path.size(), bytes.data(), bytes.size());
+}
+void keep(const std::string& path, const std::string& text) {
+    keep(path, std::as_bytes(std::span(text)));
+}
+
+void keep_moment(const Run& now) {
+    keep("history.csv", now.history());
+    kept_snapshot = now.snapshot_name();
+    keep("snapshots/" + kept_snapshot, now.snapshot());
+}
+
+} // namespace
+
+} // namespace listric
+
+/// Hands the files of the run's folder to the page, here and wherever a window ends.
+LISTRIC_EXPORT(keep_files) bool page_keep_files() {
+    return done([] {
+        keep("scene.toml", to_toml(run.value().scene()));
+        keep_moment(*run);
+        run->at_windows(keep_moment);
+        return text_of({{"mean_radius_m", run->state().mean_radius}});
+    });
+}
+
+/// Ends the run: its last files, its summary, and whether it is good.
+LISTRIC_EXPORT(close) bool page_close() {
+    return done([] {
+        if (kept_snapshot != run.value().snapshot_name())
+            keep_moment(*run);
+        const std::string summary = run->summary();
+        keep("summary.json", summary);
+        const auto checks = archive::quality_checks(
+            parse_json(summary), {.base_moves = false, .mean_radius = run->state().mean_radius});
+        return text_of(
+            {{"summary", Json::parse(summary)}, {"verdict", archive::verdict_lines(checks)}});
+    });
 }

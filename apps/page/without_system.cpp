@@ -47,6 +47,7 @@ void Log::repeat_warnings() {}
 // Files are texts that the page gives; none is kept.
 
 std::filesystem::path resource_folder() { return "/listric"; }
+std::filesystem::path record_folder() { return "/listric/records"; }
 
 FaultFit fit_or_recall_fault(std::span<const dem::Point> points, double tolerance) {
     return fit_fault(points, tolerance);

@@ -1,18 +1,18 @@
 'use strict';
 // A worker of a page, after module.js in its text. In: {load: bytes of the module}, then {check: {files, request,
 // number}}, or {start: {files, request}} and while it runs {stop: true} and {goOn: true}. Out: {program}; {read} or
-// {failed}, of a check with its number; of a run {progress}, {moment, discs}, {travel}, {stopped}, and in the end
-// {done, faults, headline, measures}.
+// {failed}, of a check with its number; of a run {progress}, {radius}, {file, bytes}, {moment, discs}, {travel},
+// {stopped}, and in the end {done, summary, verdict}.
 
 const slice = 0.25;           // seconds of a run between messages that are heard
 const picturesOfRun = 100;
 let module = null, isStopped = false, wake = null;
 
 onmessage = ({data}) => {
-  const failed = error => postMessage({failed: error.message, number: data.check?.number});
+  const failed = error => postMessage({failed: reasonOf(error), number: data.check?.number});
   const tell = (isWarning, text) => postMessage(isWarning ? {warning: text} : {progress: text});
   if (data.load) {
-    module = startModule(data.load, tell);
+    module = startModule(data.load, tell, (file, bytes) => postMessage({file, bytes}, [bytes.buffer]));
     module.then(model => postMessage({program: model.program()})).catch(failed);
   }
   if (data.check)
@@ -24,6 +24,14 @@ onmessage = ({data}) => {
     if (wake) wake();
   }
 };
+
+/** What has gone wrong; what the browser says of its own limits is no help alone. */
+function reasonOf(error) {
+  return error instanceof RangeError || error instanceof WebAssembly.RuntimeError
+    ? `the browser lets the model do no more (${error.message}), mostly for want of memory: take larger discs, or ` +
+      'run it with the program'
+    : error.message;
+}
 
 function readScene(model, {files, request}) {
   for (const [path, text] of Object.entries(files)) model.give(path, text);
@@ -47,6 +55,7 @@ async function run(model, asked) {
     const discs = model.discs(now.discs);
     postMessage({moment: now, memory: model.memory(), discs}, [discs.buffer]);
   };
+  postMessage({radius: model.keepFiles().mean_radius_m});
   show();
   for (let k = 1; k <= picturesOfRun; ++k) {
     do {
@@ -56,5 +65,5 @@ async function run(model, asked) {
     } while (!now.arrived);
     show();
   }
-  postMessage({done: now, faults: model.faults(), ...model.measures()});
+  postMessage({done: now, ...model.close()});
 }

@@ -1,5 +1,7 @@
 #include "apps/run/drawing_page.hpp"
 
+#include "apps/archive/tables/dictionary.hpp"
+#include "apps/archive/tables/headline.hpp"
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/run/drawing.hpp"
@@ -190,19 +192,40 @@ std::string module_text() {
     return base85(read_text_if_there(resource_folder() / "page/listric.wasm.gz"));
 }
 
+/// What the licences of the works in the module ask for.
+std::string notices_of(const std::string& module) {
+    return module.empty() ? "Listric: Apache License 2.0"
+                          : as_script(read_text(resource_folder() / "page/notices.txt"));
+}
+
 std::string worker_script() {
     const fs::path folder = resource_folder() / "page";
     return as_script(read_text(folder / "module.js") + read_text(folder / "worker.js"));
 }
 
-/// Texts of the rocks by the paths at which the module looks for them.
+/// Texts of rocks, shipped scenes and records of runs by the paths at which the module looks for
+/// them: of a shipped scene the errors are known.
 Json files_json(const Scene& scene) {
     Json files = Json::object();
+    for (const std::string& name : scenes.names())
+        files["/listric/scenes/" + name + ".toml"] = read_text(scenes.find(name));
+    std::error_code error;
+    for (const fs::path& file : list_folder(record_folder(), error))
+        if (file.extension() == ".csv")
+            files["/listric/records/" + file.filename().string()] = read_text(file);
     for (const std::string& name : materials.names())
         files["/listric/materials/" + name + ".toml"] = read_text(materials.find(name));
     for (const auto& [key, file] : scene.rocks)
         files[fs::absolute(file).lexically_normal().string()] = read_text(file);
     return files;
+}
+
+/// Label and unit of each measure that a run's files may have.
+Json measures_json(EffectList effects) {
+    Json measures = Json::object();
+    for (const archive::DictionaryEntry& entry : archive::dictionary(effects))
+        measures[std::string(entry.quantity.name)] = {entry.quantity.label, entry.quantity.unit};
+    return measures;
 }
 
 } // namespace
@@ -230,12 +253,16 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     const std::string module = module_text();
     if (!module.empty()) {
         data["files"] = files_json(scene);
+        data["measures"] = measures_json(effects);
+        for (const archive::Headline& one : archive::headline_of({}))
+            data["headline"].push_back(one.key);
         data["sources"] = fmt::format("{} {}", source_hash, measures_hash);
     }
     const fs::path draw = resource_folder() / "figures/draw";
     std::string scripts = read_text(resource_folder() / "page/module.js");
     for (const char* script : {"section.js", "geometry.js", "state.js", "model.js", "forms.js",
-                               "tables.js", "gestures.js", "files.js", "run.js", "page.js"})
+                               "tables.js", "gestures.js", "files.js", "../report/values.js",
+                               "charts.js", "zip.js", "run.js", "page.js"})
         scripts += read_text(draw / script);
     return filled_page(read_text(draw / "draw.html"),
                        {{"style", read_text(draw / "draw.css")},

@@ -1,12 +1,16 @@
 #include "apps/run/driven_run.hpp"
 
+#include "apps/archive/folder/summary.hpp"
+#include "apps/measures/evolution.hpp"
 #include "apps/measures/faults/main_faults.hpp"
 #include "apps/run/build.hpp"
+#include "apps/run/closing.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +22,8 @@ struct Run::Parts {
     Log log{/*quiet=*/true};
     RunView view;
     dem::Simulation simulation;
+    std::optional<measures::Past> beginning; ///< once there is a hanging wall
+    std::function<void(const Run&)> at_windows;
 
     Parts(Scene s, int threads, HangingWallSource* hanging_wall)
         : scene(std::move(s)), view(scene, options, log, simulation),
@@ -27,6 +33,7 @@ struct Run::Parts {
         add_events(simulation, view);
         view.begin_record();
         start(simulation, view, hanging_wall);
+        beginning = measures::remember(view.setting, view.parts.base, view.state(), {});
         end_window();
     }
 
@@ -56,6 +63,8 @@ bool Run::extend_to(double goal, const Report& report) {
         [&](const dem::Simulation&) { return !report || report(*this); },
         [&] {
             parts_->end_window();
+            if (parts_->at_windows)
+                parts_->at_windows(*this);
             return true;
         });
 }
@@ -81,6 +90,25 @@ const measures::FaultReport& Run::faults() {
 
 void Run::save(const std::filesystem::path& path) const {
     archive::write_snapshot(path, state(), parts_->simulation.events(), parts_->view.record);
+}
+
+void Run::at_windows(std::function<void(const Run&)> told) { parts_->at_windows = std::move(told); }
+
+std::vector<std::byte> Run::snapshot() const {
+    return archive::snapshot_bytes(state(), parts_->simulation.events(), parts_->view.record);
+}
+
+std::string Run::snapshot_name() const { return parts_->view.snapshot().filename().string(); }
+
+std::string Run::history() const { return archive::to_csv(parts_->view.record.history); }
+
+std::string Run::summary() {
+    const dem::Team team(parts_->options.threads);
+    RunView& view = parts_->view;
+    view.numbers.clear();
+    add_dilation(view, *parts_->beginning);
+    compare_picks(view);
+    return summary_of(view);
 }
 
 } // namespace listric

@@ -5,10 +5,13 @@
 #include "apps/support/named_numbers.hpp"
 #include "dem/state.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace listric {
 
@@ -46,6 +49,15 @@ public:
 
     /// Writes a snapshot, which archive::read_snapshot() reads. Throws StorageError.
     void save(const std::filesystem::path& path) const;
+
+    // The files of the folder that `listric run` would leave, as bytes and texts.
+
+    /// Told where a window has ended, once the history has its row.
+    void at_windows(std::function<void(const Run&)> told);
+    std::vector<std::byte> snapshot() const; ///< that save() writes
+    std::string snapshot_name() const;       ///< of the present moment
+    std::string history() const;             ///< history.csv so far
+    std::string summary();                   ///< summary.json of a run that ends here
 
 private:
     struct Parts;

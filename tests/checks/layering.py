@@ -47,7 +47,7 @@ FOREIGN = {
     "fluid": ("Eigen/",),
     "apps/measures": (),
     "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
-             "pugixml.hpp", "zlib.h", "csv.h"),
+             "pugixml.hpp", "zlib.h"),
 }
 
 # Headers that take a second or more to compile, each with the headers that may include it. A source includes what it

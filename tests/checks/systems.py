@@ -32,7 +32,6 @@ NAMES = {
     "Eigen3": ("libeigen3-dev", "eigen3-devel", "eigen", "eigen"),
     "pugixml": ("libpugixml-dev", "pugixml-devel", "pugixml", "pugixml"),
     "ZLIB": ("zlib1g-dev", "zlib-devel", "zlib", "zlib-api"),
-    "Libcsv": ("libcsv-dev", "libcsv-devel", None, "libcsv"),
     "deal.II": ("libdeal.ii-dev", None, None, "dealii"),
     "PETSC": ("petsc-dev", None, None, "petsc"),
     "MPI": ("libopenmpi-dev", None, None, "mpi"),

@@ -4,6 +4,7 @@
 #include "apps/archive/folder/scene_lines.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/reading.hpp"
 #include "apps/support/machine/resources.hpp"
 #include "apps/support/statistics.hpp"
 
@@ -204,8 +205,7 @@ ErrorQuestion error_question(const Scene& scene) {
 
 std::string departs_from_record(const Scene& scene) {
     const auto file = resource_folder() / "scenes" / (scene.name + ".toml");
-    std::error_code error;
-    if (!std::filesystem::exists(file, error))
+    if (!is_file(file))
         return "name";
     SceneRequest request{.scene = file.string()};
     request.accuracy = scene.accuracy;

@@ -158,12 +158,9 @@ void write_run_records(const fs::path& file, std::span<const RecordedRun> runs) 
 }
 
 std::vector<RecordedRun> recorded_runs() {
-    std::vector<fs::path> files;
     std::error_code error;
-    for (fs::directory_iterator file(record_folder(), error), end; !error && file != end;
-         file.increment(error))
-        if (file->path().extension() == ".csv")
-            files.push_back(file->path());
+    std::vector<fs::path> files = list_folder(record_folder(), error);
+    std::erase_if(files, [](const fs::path& file) { return file.extension() != ".csv"; });
     std::ranges::sort(files);
     std::vector<RecordedRun> all;
     for (const fs::path& file : files) {

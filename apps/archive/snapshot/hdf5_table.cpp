@@ -2,6 +2,8 @@
 
 #include "apps/support/error.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -59,6 +61,12 @@ bool is_memory_short() {
     throw StorageError(what + (cause.text.empty() ? "" : " (HDF5: " + cause.text + ")"));
 }
 
+/// @param what  what could not be done, if `status` says so
+void check(herr_t status, const std::string& what) {
+    if (status < 0)
+        fail(what);
+}
+
 } // namespace
 
 void prepare_hdf5(double bytes) {
@@ -71,7 +79,7 @@ void prepare_hdf5(double bytes) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are thrown, not printed
 }
 
-Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+Handle::Handle(Hdf5Id id, Close close, const std::string& what) : id_(id), close_(close) {
     if (id < 0)
         fail(what);
 }
@@ -81,21 +89,44 @@ Handle::~Handle() {
         close_(id_);
 }
 
-void check(herr_t status, const std::string& what) {
-    if (status < 0)
-        fail(what);
+Handle make_file() {
+    const char* const what = "cannot make the file in memory";
+    const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    check(H5Pset_fapl_core(in_memory, 1 << 20, false), what);
+    return {H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what};
 }
 
-Handle create_group(hid_t parent, const std::string& name) {
+std::vector<std::byte> image_of(Hdf5Id file) {
+    const char* const what = "cannot make the file in memory";
+    check(H5Fflush(file, H5F_SCOPE_LOCAL), what);
+    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+    std::vector<std::byte> image(size > 0 ? static_cast<std::size_t>(size) : 0);
+    if (size <= 0 || H5Fget_file_image(file, image.data(), image.size()) < 0)
+        throw StorageError(what);
+    return image;
+}
+
+Handle open_file(const std::filesystem::path& path) {
+    const char* const what = "cannot be opened as HDF5";
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    check(H5Pset_file_locking(access, false, true), what);
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, what};
+}
+
+bool has_attribute(Hdf5Id object, const char* name) { return H5Aexists(object, name) > 0; }
+
+bool has_member(Hdf5Id group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+
+Handle create_group(Hdf5Id parent, const std::string& name) {
     return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
             "cannot make the group " + name};
 }
 
-Handle open_group(hid_t parent, const std::string& name) {
+Handle open_group(Hdf5Id parent, const std::string& name) {
     return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "lacks the group " + name};
 }
 
-std::vector<std::string> names_in(hid_t group) {
+std::vector<std::string> names_in(Hdf5Id group) {
     std::vector<std::string> names;
     const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* into) -> herr_t {
         static_cast<std::vector<std::string>*>(into)->push_back(name);
@@ -148,7 +179,7 @@ Handle open_attribute(hid_t object, const char* name) {
 
 } // namespace
 
-void write_text(hid_t group, const char* name, const std::string& text) {
+void write_text(Hdf5Id group, const char* name, const std::string& text) {
     const Handle type = text_type(text.size()), space = single();
     check(H5Tset_cset(type, H5T_CSET_UTF8), "cannot make a type");
     const Handle set(H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -157,7 +188,7 @@ void write_text(hid_t group, const char* name, const std::string& text) {
           std::string("cannot write the text ") + name);
 }
 
-std::string read_text(hid_t group, const char* name) {
+std::string read_text(Hdf5Id group, const char* name) {
     const Handle set(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose,
                      std::string("lacks the text ") + name);
     const Handle type(H5Dget_type(set), H5Tclose, std::string("has no type of ") + name);
@@ -167,13 +198,13 @@ std::string read_text(hid_t group, const char* name) {
     return without_padding(std::move(text));
 }
 
-void write_text_attribute(hid_t object, const char* name, const std::string& text) {
+void write_text_attribute(Hdf5Id object, const char* name, const std::string& text) {
     const Handle type = text_type(text.size()), attribute = create_attribute(object, name, type);
     check(H5Awrite(attribute, type, text.c_str()),
           std::string("cannot write the attribute ") + name);
 }
 
-std::string read_text_attribute(hid_t object, const char* name) {
+std::string read_text_attribute(Hdf5Id object, const char* name) {
     const Handle attribute = open_attribute(object, name);
     const Handle type(H5Aget_type(attribute), H5Tclose, std::string("has no type of ") + name);
     std::string text(H5Tget_size(type), '\0');
@@ -181,13 +212,13 @@ std::string read_text_attribute(hid_t object, const char* name) {
     return without_padding(std::move(text));
 }
 
-template <class T> void write_number(hid_t object, const char* name, T value) {
+template <class T> void write_number(Hdf5Id object, const char* name, T value) {
     const Handle attribute = create_attribute(object, name, hdf5_type<T>());
     check(H5Awrite(attribute, hdf5_type<T>(), &value),
           std::string("cannot write the attribute ") + name);
 }
 
-template <class T> T read_number(hid_t object, const char* name) {
+template <class T> T read_number(Hdf5Id object, const char* name) {
     const Handle attribute = open_attribute(object, name);
     T value{};
     check(H5Aread(attribute, hdf5_type<T>(), &value),
@@ -195,12 +226,12 @@ template <class T> T read_number(hid_t object, const char* name) {
     return value;
 }
 
-template void write_number(hid_t, const char*, double);
-template void write_number(hid_t, const char*, std::int64_t);
-template double read_number(hid_t, const char*);
-template std::int64_t read_number(hid_t, const char*);
+template void write_number(Hdf5Id, const char*, double);
+template void write_number(Hdf5Id, const char*, std::int64_t);
+template double read_number(Hdf5Id, const char*);
+template std::int64_t read_number(Hdf5Id, const char*);
 
-std::vector<std::string> attributes_of(hid_t object) {
+std::vector<std::string> attributes_of(Hdf5Id object) {
     std::vector<std::string> names;
     const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* into) -> herr_t {
         static_cast<std::vector<std::string>*>(into)->push_back(name);
@@ -250,19 +281,19 @@ template <class T> Column read_values(hid_t set, const std::string& name, std::s
             read_text_attribute(set, "unit"),
             std::move(values),
             read_number<T>(set, "initial"),
-            H5Aexists(set, "begins_as") > 0 ? read_text_attribute(set, "begins_as") : "",
-            H5Aexists(set, "is_note") > 0};
+            has_attribute(set, "begins_as") ? read_text_attribute(set, "begins_as") : "",
+            has_attribute(set, "is_note")};
 }
 
 } // namespace
 
-void write_table(hid_t group, const Table& table) {
+void write_table(Hdf5Id group, const Table& table) {
     write_number(group, "rows", static_cast<std::int64_t>(table.rows()));
     for (std::size_t k = 0; k < table.columns().size(); ++k)
         write_column(group, table.columns()[k], k);
 }
 
-Table read_table(hid_t parent, const std::string& name) {
+Table read_table(Hdf5Id parent, const std::string& name) {
     const Handle group = open_group(parent, name);
     std::map<std::int64_t, Column> columns;
     for (const std::string& column : names_in(group)) {

@@ -94,7 +94,7 @@ template <class AnyRecord, class Visit> void for_each_run_number(AnyRecord& r, V
 template <class T> using Stored = std::conditional_t<std::is_integral_v<T>, std::int64_t, double>;
 
 /// Visitor that writes what it is shown into the attributes of `object`.
-auto writes_numbers(hid_t object) {
+auto writes_numbers(Hdf5Id object) {
     return [object](const char* name, const auto& value) {
         using T = std::decay_t<decltype(value)>;
         write_number(object, name, static_cast<Stored<T>>(value));
@@ -102,7 +102,7 @@ auto writes_numbers(hid_t object) {
 }
 
 /// Visitor that reads them back.
-auto reads_numbers(hid_t object) {
+auto reads_numbers(Hdf5Id object) {
     return [object](const char* name, auto& value) {
         using T = std::decay_t<decltype(value)>;
         value = static_cast<T>(read_number<Stored<T>>(object, name));
@@ -165,7 +165,7 @@ std::uint64_t content_hash(const Content& content) {
     return h;
 }
 
-void write_state(hid_t file, const State& state) {
+void write_state(Hdf5Id file, const State& state) {
     for_each_number(state, writes_numbers(file));
     if (state.clock.travel.m != state.clock.extension.m) // the way and the place: stages of motion
         write_number(file, "travel", state.clock.travel.m);
@@ -207,14 +207,14 @@ Table with_present_names(Table discs) {
     return renamed;
 }
 
-State read_state(hid_t file) {
+State read_state(Hdf5Id file) {
     State state;
     for_each_number(state, reads_numbers(file));
-    state.clock.travel = Travel(H5Aexists(file, "travel") > 0 ? read_number<double>(file, "travel")
+    state.clock.travel = Travel(has_attribute(file, "travel") ? read_number<double>(file, "travel")
                                                               : state.clock.extension.m);
     for_each_table(state, [&](const char* name, Table& table) { table = read_table(file, name); });
     state.discs = with_present_names(std::move(state.discs));
-    if (H5Lexists(file, "base_nodes", H5P_DEFAULT) > 0) {
+    if (has_member(file, "base_nodes")) {
         state.base_nodes = read_table(file, "base_nodes");
         const Handle base_memory = open_group(file, "base_memory");
         for (const std::string& name : names_in(base_memory))
@@ -229,7 +229,7 @@ State read_state(hid_t file) {
         if (k <= weak)
             continue;
         for_each_property_of_layer(m, reads_numbers(group));
-        if (H5Aexists(group, "tensile_mean") > 0) {
+        if (has_attribute(group, "tensile_mean")) {
             m.bonds.emplace();
             for_each_strength(*m.bonds, reads_numbers(group));
             m.bonds->reading = read_number<std::int64_t>(group, "strength_is_force") != 0
@@ -240,7 +240,7 @@ State read_state(hid_t file) {
     return state;
 }
 
-void write_memories(hid_t file, std::span<const std::unique_ptr<Event>> events) {
+void write_memories(Hdf5Id file, std::span<const std::unique_ptr<Event>> events) {
     const Handle memories = create_group(file, "events");
     for (const auto& event : events) {
         const Handle group = create_group(memories, event->name());
@@ -249,7 +249,7 @@ void write_memories(hid_t file, std::span<const std::unique_ptr<Event>> events) 
     }
 }
 
-void read_memories(hid_t file, Snapshot& snapshot) {
+void read_memories(Hdf5Id file, Snapshot& snapshot) {
     const Handle memories = open_group(file, "events");
     for (const std::string& name : names_in(memories)) {
         const Handle group = open_group(memories, name);
@@ -258,7 +258,7 @@ void read_memories(hid_t file, Snapshot& snapshot) {
     }
 }
 
-void write_record(hid_t file, const RunRecord& record) {
+void write_record(Hdf5Id file, const RunRecord& record) {
     const Handle run = create_group(file, "run");
     write_text(run, "scene", record.scene);
     if (!record.earlier_versions.empty())
@@ -271,12 +271,12 @@ void write_record(hid_t file, const RunRecord& record) {
         write_number(parts, part.c_str(), seconds);
 }
 
-RunRecord read_record(hid_t file) {
+RunRecord read_record(Hdf5Id file) {
     RunRecord record;
     const Handle run = open_group(file, "run");
-    record.scene = H5Aexists(run, "scene") > 0 ? read_text_attribute(run, "scene") // format 5
+    record.scene = has_attribute(run, "scene") ? read_text_attribute(run, "scene") // format 5
                                                : read_text(run, "scene");
-    if (H5Lexists(run, "earlier_versions", H5P_DEFAULT) > 0) {
+    if (has_member(run, "earlier_versions")) {
         std::istringstream lines(read_text(run, "earlier_versions"));
         for (std::string line; std::getline(lines, line);)
             record.earlier_versions.push_back(line);
@@ -290,15 +290,11 @@ RunRecord read_record(hid_t file) {
     return record;
 }
 
-/// The HDF5 file as bytes. It is made in memory: a disk that fills up while HDF5 writes leaves the
-/// library in a state that cannot even be closed.
+/// The HDF5 file as bytes.
 std::vector<std::byte> file_image(const State& state,
                                   std::span<const std::unique_ptr<Event>> events,
                                   const RunRecord& record) {
-    const char* const what = "cannot make the file in memory";
-    const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
-    check(H5Pset_fapl_core(in_memory, 1 << 20, false), what);
-    const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what);
+    const Handle file = make_file();
     write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
     write_text_attribute(file, "version", std::string(version));
     write_text_attribute(file, "coordinates",
@@ -308,12 +304,7 @@ std::vector<std::byte> file_image(const State& state,
     write_record(file, record);
     const std::uint64_t h = content_hash(content_of(state, events, record));
     write_number(file, "content_hash", static_cast<std::int64_t>(h));
-    check(H5Fflush(file, H5F_SCOPE_LOCAL), what);
-    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-    std::vector<std::byte> image(size > 0 ? static_cast<std::size_t>(size) : 0);
-    if (size <= 0 || H5Fget_file_image(file, image.data(), image.size()) < 0)
-        throw StorageError(what);
-    return image;
+    return image_of(file);
 }
 
 constexpr double hdf5_itself = 3e6; // bytes that it takes for a file of a few discs
@@ -357,11 +348,7 @@ void check_format(const std::string& found, const std::string& writer) {
 /// checksum comes first.
 template <class Read> auto read_verified(const fs::path& path, Read&& read) {
     const bool verified = verify_checksum(path);
-    const char* const what = "cannot be opened as HDF5";
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
-    // A snapshot is whole from the moment that it has its name, and some shared disks refuse locks.
-    check(H5Pset_file_locking(access, false, true), what);
-    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, what);
+    const Handle file = open_file(path); // it is whole from the moment that it has its name
     check_format(read_text_attribute(file, "format"), read_text_attribute(file, "version"));
     if (!verified)
         throw StorageError("is damaged (it lacks its checksum)");
@@ -384,7 +371,7 @@ template <class Read> auto read_file(const fs::path& path, Read&& read) {
     }
 }
 
-Snapshot read_all(hid_t file) {
+Snapshot read_all(Hdf5Id file) {
     Snapshot snapshot;
     snapshot.state = read_state(file);
     read_memories(file, snapshot);
@@ -398,16 +385,23 @@ Snapshot read_all(hid_t file) {
 
 } // namespace
 
+std::vector<std::byte> snapshot_bytes(const State& state,
+                                      std::span<const std::unique_ptr<Event>> events,
+                                      const RunRecord& record) {
+    prepare_hdf5(need_of_image(state));
+    std::vector<std::byte> bytes = file_image(state, events, record);
+    append_checksum(bytes); // behind the end of the HDF5 file, where HDF5 does not look
+    return bytes;
+}
+
 void write_snapshot(const fs::path& path, const State& state,
                     std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
-    prepare_hdf5(need_of_image(state));
     std::vector<std::byte> bytes;
     try {
-        bytes = file_image(state, events, record);
+        bytes = snapshot_bytes(state, events, record);
     } catch (const StorageError& error) {
         throw StorageError(path.string() + ": " + error.what());
     }
-    append_checksum(bytes); // behind the end of the HDF5 file, where HDF5 does not look
     write_bytes(path, bytes);
 }
 

@@ -3,6 +3,7 @@
 #include "dem/event.hpp"
 #include "dem/state.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -31,6 +32,11 @@ struct Snapshot {
     std::map<std::string, std::int64_t> event_applied;
     RunRecord record;
 };
+
+/// The bytes of the HDF5 file of a snapshot. Throws StorageError.
+std::vector<std::byte> snapshot_bytes(const dem::State& state,
+                                      std::span<const std::unique_ptr<dem::Event>> events,
+                                      const RunRecord& record);
 
 /// Writes an HDF5 file under a temporary name and renames it, so that a file of this name is always
 /// complete. Throws StorageError.

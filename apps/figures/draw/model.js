@@ -34,13 +34,13 @@ function answerOf(name, value) {
 }
 
 /** What the module reads in place of files, and which scene of it; at draft, where it is run and says nothing else. Picks of a
- * file that nobody has dropped are left out. */
+ * file that nobody has dropped are left out. A shipped scene as it is goes by its name, by which its errors are known. */
 function requestNow(seed) {
-  const path = `/${baseName()}.toml`, text = page.fresh && !missingFiles().length ? page.fresh : sceneText(hasPicks);
-  const files = {...facts.files, ...page.given, [path]: text};
+  const name = shippedNow(), path = `/${baseName()}.toml`, text = page.fresh && !missingFiles().length ? page.fresh : sceneText(hasPicks);
+  const files = {...facts.files, ...page.given, ...(name ? {} : {[path]: text})};
   for (const kind of pickKinds.filter(hasPicks)) files[`/${picksFile(kind)}`] = picksText(kind);
   const {accuracy = "draft"} = page.state.scene;
-  return {files, request: {scene: path, ...(seed === undefined ? {} : {accuracy, seed})}};
+  return {files, request: {scene: name || path, ...(seed === undefined ? {} : {accuracy, seed})}};
 }
 
 // -- values and texts

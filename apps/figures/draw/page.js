@@ -75,7 +75,7 @@ function addListeners() {
   addRunListeners();
   new ResizeObserver(() => { if (page.section.width !== page.section.host.clientWidth) showWhole(); }).observe(page.section.host);
   window.addEventListener("beforeunload", event => {
-    if (page.past.length && !page.saved || runs.some(isWorking)) event.preventDefault();
+    if (page.past.length && !page.saved || isUnderWay()) event.preventDefault();
   });
 }
 
@@ -103,7 +103,7 @@ async function begin() {
     })});
   await startModel().catch(error => tellRun(error.message));
   showDocument(facts.document, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
-  page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
+  if (facts.on_shelf) rememberShipped(facts.scene);
   if (window.innerWidth < 640) $("height").value = "2";
   page.section.view.height = Number($("height").value);
   addListeners();
@@ -119,6 +119,8 @@ async function begin() {
   showWhole();
   if (page.badPicture) tell(page.badPicture);
   $("footer").textContent = `${facts.program}. One file: nothing leaves this computer. Drop TOML, CSV of picks, PNG or JPEG anywhere.`;
+  if (model) takeExampleOfAddress();
+  $("licence_texts").textContent = $("notices").textContent;
   $("trouble").hidden = true;
 }
 

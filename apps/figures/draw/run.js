@@ -1,11 +1,34 @@
 // Runs of what is drawn, in this page: the program's own model, in a worker for each seed.
 
+/** The name of the shipped scene that is drawn; none where something has changed. */
+function shippedNow() { return page.shipped?.text === sceneText() ? page.shipped.name : undefined; }
+
+/** What is drawn is a shipped scene, as yet. */
+function rememberShipped(name) { page.shipped = {name, text: sceneText(), description: page.state.scene.description}; }
+
+/** Takes a shipped scene in place of what is drawn, which undo brings back. */
+function takeExample(name) {
+  takeSceneFile(facts.files[`/listric/scenes/${name}.toml`], `${name}.toml`);
+  rememberShipped(name);
+  checkSoon();
+}
+
+/** The shipped scene that the address names behind its #. */
+function takeExampleOfAddress() {
+  const name = location.hash.slice(1);
+  if (facts.shelf.includes(name)) takeExample(name);
+}
+
 // -- runs
 
 const runs = [];
 const isWorking = run => run.worker && !run.isStopped;
+const isUnderWay = () => runs.some(run => run.worker);
+const longestSilence = 120; // seconds after which a worker may be gone: nobody tells
 
 async function beginRuns() {
+  if (isUnderWay() && !confirm("This ends the runs under way. What they have found is lost, unless you save it first."))
+    return;
   for (const run of runs) run.worker?.terminate();
   runs.length = 0;
   const faults = showState();
@@ -13,15 +36,19 @@ async function beginRuns() {
   const first = Number(page.state.scene.seed ?? 1), count = clamp(Math.round(Number($("seeds").value)) || 1, 1, 8);
   const bytes = await moduleBytes();
   $("runs").replaceChildren();
+  $("chart").replaceChildren();
   for (let k = 0; k < count; ++k) runs.push(newRun(first + k, bytes));
   showRuns();
 }
 
 function newRun(seed, bytes) {
-  const run = {seed, request: requestNow(seed), begun: performance.now(), canvas: element("canvas"),
-    words: element("p", {className: "faint"}), table: element("table"), shape: settings(),
+  const now = performance.now(), run = {seed, name: `${shippedNow() || baseName()}-seed-${seed}`,
+    request: requestNow(seed), begun: now, heard: now, files: new Zip(), shape: settings(),
+    canvas: element("canvas"), words: element("p", {className: "faint"}), table: element("table"),
+    verdict: element("p", {className: "faint verdict"}),
     base: (page.chain || []).flatMap(segment => page.section.pointsOf(segment))};
-  $("runs").append(element("figure", {}, run.canvas, element("figcaption", {}, run.words, run.table)));
+  $("runs").append(element("figure", {}, run.canvas,
+    element("figcaption", {}, run.words, element("div", {className: "scroll"}, run.table), run.verdict)));
   run.worker = new Worker(workerUrl);
   run.worker.onmessage = ({data}) => takeMessage(run, data);
   run.worker.onerror = event => { event.preventDefault(); endRun(run, `the run has failed: ${event.message}`); };
@@ -31,6 +58,7 @@ function newRun(seed, bytes) {
 }
 
 function takeMessage(run, data) {
+  run.heard = performance.now();
   if (data.read) run.scene = data.read;
   if (data.progress) run.stage = data.progress.split("  ")[1] ?? data.progress;
   if (data.moment) {
@@ -38,15 +66,26 @@ function takeMessage(run, data) {
     Object.assign(run, {moment: data.moment, discs: data.discs, memory: data.memory});
     paintRun(run);
   }
+  if (data.file) takeFile(run, data);
+  if (data.radius) run.radius = data.radius;
   if (data.travel !== undefined) run.travel = data.travel;
   if (data.stopped) run.isStopped = true;
   if (data.failed) return endRun(run, asOfFile(data.failed));
   if (data.done) {
-    Object.assign(run, {moment: data.done, faults: data.faults, measures: data.measures, headline: data.headline});
+    Object.assign(run, {moment: data.done, summary: data.summary});
     paintRun(run);
+    showMeasures(run, data.verdict);
     return endRun(run, "");
   }
   showRuns();
+}
+
+/** A file of the run's folder; a later one of its name takes its place. */
+function takeFile(run, {file, bytes}) {
+  run.files.add(file, bytes);
+  if (file !== "history.csv") return;
+  run.history = historyOf(new TextDecoder().decode(bytes));
+  showHistory();
 }
 
 function endRun(run, why) {
@@ -72,6 +111,10 @@ function secondsLeft(run) {
 
 function wordsOf(run) {
   if (run.failure) return `Seed ${run.seed}: ${run.failure}`;
+  const silence = (performance.now() - run.heard) / 1000;
+  if (isWorking(run) && silence > longestSilence)
+    return `Seed ${run.seed}: no word for ${duration(silence)}; the browser may have ended it, for want of memory. ` +
+      "Run it again, or with the program";
   if (!run.moment) return `Seed ${run.seed}: ${run.stage ?? "reads the scene"}`;
   const {extension, discs, state_hash: hash} = run.moment, left = secondsLeft(run);
   const until = !run.worker ? `, in ${duration(run.seconds)}` : run.isStopped ? ", stopped"
@@ -82,24 +125,56 @@ function wordsOf(run) {
 function tellRun(text) { $("run_state").textContent = text; }
 
 function showRuns() {
-  for (const run of runs) {
-    run.words.textContent = wordsOf(run);
-    if (run.headline && !run.table.rows.length)
-      run.table.append(...run.headline.map(({name, value}) =>
-        element("tr", {}, element("td", {}, name), element("td", {className: "number"}, value))));
-  }
+  for (const run of runs) run.words.textContent = wordsOf(run);
   const alive = runs.filter(run => run.worker);
   $("run_stop").disabled = !alive.length;
   $("run_stop").textContent = alive.length && !alive.some(isWorking) ? "Go on" : "Stop";
   $("save_picture").disabled = !runs.some(run => run.discs);
-  $("save_run").disabled = !runs.some(run => run.headline);
-  const calls = runs.filter(run => run.headline).map(nativeCall);
+  $("save_run").disabled = !runs.some(run => run.history);
+  const calls = runs.filter(run => run.summary).map(nativeCall);
   if (calls.length) tellRun(`${page.otherModel}The same run by the program: ${calls.join("; ")}`);
   else if (alive.length) tellRun(page.otherModel);
 }
 
-function nativeCall({seed, request}) {
-  return `listric run ./${request.request.scene.slice(1)} --accuracy ${request.request.accuracy} --seed ${seed}`;
+/** The results by which runs are told apart, as the report has them at its end, and whether the run is good. */
+function showMeasures(run, verdict) {
+  const {summary, radius} = run, errors = summary.known_errors || [];
+  const known = Object.fromEntries(errors.map(one => [one.measure, one]));
+  const rows = Object.entries(mainNumbers(summary, facts.headline)).map(([name, value]) =>
+    ({name, told: valueAndError(value, measureUnit(name), radius, known[name])}));
+  const heads = ["measure", "value", ...(rows.some(({told: [, error]}) => error) ? ["by recorded runs"] : [])];
+  const cells = ({name, told: [value, error]}) => [element("td", {}, measureWords(name)),
+    element("td", {className: "number"}, value),
+    element("td", {title: errorSources(known[name])}, error && `(${error})`)];
+  run.table.replaceChildren(element("tr", {}, ...heads.map(head => element("th", {}, head))),
+    ...rows.map(row => element("tr", {}, ...cells(row).slice(0, heads.length))));
+  run.verdict.textContent = verdict.join(". ");
+}
+
+/** Unit in which times are told, by the way that the runs go. */
+function timeUnit() {
+  const rateOf = scene => Number(/^rate_m_per_a = (\S+)/m.exec(scene.toml)?.[1]);
+  const times = runs.filter(run => run.scene).map(({scene}) => scene.distance_m / rateOf(scene));
+  const longest = Math.max(0, ...times.filter(Number.isFinite));
+  return longest >= 1e4 ? {name: "Myr", years: 1e6} : {name: "a", years: 1};
+}
+
+/** Draws the chosen measure of all runs; the choice has what their histories have. */
+function showHistory() {
+  const series = runs.filter(run => run.history).map(({seed, history}) => ({label: `seed ${seed}`, history}));
+  const isKnown = name => series.some(({history}) => history[name]?.some(Number.isFinite));
+  const names = [...new Set(series.flatMap(({history}) => Object.keys(history)))]
+    .filter(name => !["extension_m", "travel_m"].includes(name) && isKnown(name));
+  const select = $("charted"), chosen = select.value || "rollover_tilt_deg";
+  if (select.options.length !== names.length)
+    select.replaceChildren(...names.map(name => new Option(measureWords(name), name)));
+  select.value = names.includes(chosen) ? chosen : names[0];
+  $("history").hidden = !series.length;
+  if (series.length) drawHistory($("chart"), select.value, series);
+}
+
+function nativeCall({seed, request: {request: {scene, accuracy}}}) {
+  return `listric run ${scene.replace(/^\//, "./")} --accuracy ${accuracy} --seed ${seed}`;
 }
 
 // -- pictures
@@ -143,7 +218,7 @@ function paintRun(run) {
     pen.stroke();
   };
   line(run.base.map(({x, y}) => [x, y]), ink);
-  for (const {points_m: points} of run.faults || [])
+  for (const {points_m: points} of run.summary?.faults || [])
     line(points.map(([x, depth]) => [x, -depth]), vocabulary.layers.faults.ink);
 }
 
@@ -152,12 +227,15 @@ function saveRunPictures() {
     run.canvas.toBlob(blob => download(`${baseName()}-seed-${run.seed}.png`, blob, "image/png"));
 }
 
-/** All that a run has found, with the scene that it was made of: what the program makes again, to the same hash. */
-function saveRun() {
-  for (const {seed, request, moment, measures, faults, scene} of runs.filter(run => run.headline))
-    download(`${baseName()}-seed-${seed}.json`, JSON.stringify({
-      program: facts.program, call: nativeCall({seed, request}), ...moment, measures, faults,
-      scene: request.files[request.request.scene], in_force: scene.toml}, null, 1), "application/json");
+/** Folders of runs as the program leaves them, each in a zip; the program can go on with one that has not ended. */
+async function saveRuns() {
+  const told = [];
+  for (const run of runs.filter(one => one.history)) {
+    download(`${run.name}.zip`, await run.files.blob(run.name), "application/zip");
+    told.push(run.summary ? `listric report ${run.name}`
+      : `listric run ${run.name}/scene.toml --resume --output ${run.name}`);
+  }
+  tellRun(`Saved. Unzip, then: ${told.join("; ")}`);
 }
 
 function addRunListeners() {
@@ -168,6 +246,12 @@ function addRunListeners() {
   $("run_stop").onclick = stopOrGoOn;
   $("run_colours").onchange = () => runs.forEach(paintRun);
   $("save_picture").onclick = saveRunPictures;
-  $("save_run").onclick = saveRun;
+  $("save_run").onclick = () => saveRuns().catch(error => tellRun(`Not saved: ${error.message}`));
+  $("charted").onchange = showHistory;
+  $("example").hidden = false;
+  $("example").append(...facts.shelf.map(name => new Option(name)));
+  $("example").onchange = () => { takeExample($("example").value); $("example").selectedIndex = 0; };
+  window.addEventListener("hashchange", takeExampleOfAddress);
+  setInterval(() => { if (runs.some(isWorking)) showRuns(); }, 5000);
   showRuns();
 }

@@ -70,7 +70,7 @@ function setAt({scene}, path, value) {
 function putShape(state, shape) {
   Object.assign(state.scene.detachment, tableOf(shape));
   (state.scene.hanging_wall ??= {}).thickness_m = roundLength(depthOf(shape), 2 + decimalsOf(shape));
-  if (state.scene.description === page.description) state.scene.description = `drawn, from ${facts.scene}`;
+  if (page.shipped && state.scene.description === page.shipped.description) state.scene.description = `drawn, from ${page.shipped.name}`; // else it would not fit
 }
 
 /** A shape that a node's change made, at the depth that is kept if so asked. */

@@ -113,28 +113,12 @@ function drawMeasureRows(table, names, runs, numbers) {
   }
 }
 
-/** Where what is known of an error comes from. */
-function errorSources(known) {
-  return errorParts.filter(([name]) => typeof known?.[name] === "number")
-    .map(([name, what]) => `${what}: ${known[`${name}_against`]} (${known[`${name}_record`]})`).join("; ");
-}
-
 /** At most ten results, for print: those by which runs are told apart, and the cutoff. */
 function drawMainMeasures(table, runs) {
   table.textContent = "";
-  const numbers = runs.map(run => mainNumbers(run));
+  const numbers = runs.map(run => mainNumbers(run.head.summary, page.data.headline));
   const names = [...new Set(numbers.flatMap(Object.keys))].slice(0, 10);
   if (names.length) drawMeasureRows(table, names, runs, numbers);
-}
-
-function mainNumbers({head: {summary}}) {
-  const numbers = {};
-  for (const name of [...page.data.headline, "cutoff_x_m", "cutoff_z_m"]) {
-    const list = name.startsWith("number of ") ? summary?.[name.slice(10)] : undefined;
-    const value = Array.isArray(list) ? list.length : summary?.[name];
-    if (typeof value === "number") numbers[name] = value;
-  }
-  return numbers;
 }
 
 /** "Is this run good?": every question with number, bound and words. */

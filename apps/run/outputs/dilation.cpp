@@ -1,6 +1,6 @@
-#include "apps/measures/basin/dilation.hpp"
 #include "apps/archive/snapshot/snapshot.hpp"
 #include "apps/measures/evolution.hpp"
+#include "apps/run/closing.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 #include "apps/support/error.hpp"
@@ -28,13 +28,8 @@ std::optional<dem::State> start_of(const RunView& run) {
 }
 
 void measure(RunView& run) {
-    const std::optional<dem::State> start = start_of(run);
-    if (!start)
-        return;
-    const std::vector<measures::Past> past{
-        measures::remember(run.setting, run.parts.base, *start, {})};
-    append(run.numbers, measures::measure_dilation(
-                            measures::RunSoFar(run.setting, run.parts.base, run.state(), past)));
+    if (const std::optional<dem::State> start = start_of(run))
+        add_dilation(run, measures::remember(run.setting, run.parts.base, *start, {}));
 }
 
 } // namespace

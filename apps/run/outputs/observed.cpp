@@ -1,5 +1,6 @@
 #include "apps/archive/tables/observed_misfit.hpp"
 
+#include "apps/run/closing.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 
@@ -20,11 +21,9 @@ std::string line_of(const ObservedHorizon& row) {
                        row.misfit->compared, row.points, *row.stratum);
 }
 
-/// Compares picked horizons with the model's.
+/// Compares picked horizons with the model's, and tells.
 void compare(RunView& run) {
-    run.observed = compare_horizons(
-        run.scene, run.state(),
-        trace_horizons(run.setting, run.parts.base, run.state(), run.faults().faults));
+    compare_picks(run);
     for (const ObservedHorizon& row : run.observed)
         run.log.say(line_of(row));
 }

@@ -3,7 +3,6 @@
 #include "apps/support/error.hpp"
 #include "apps/support/words/text.hpp"
 
-#include <csv.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,41 +49,70 @@ std::string with_tabs(std::string_view line, bool quoted) {
     return text;
 }
 
-/// libcsv's parser with the record that it is at.
+/// Takes records apart as RFC 4180 has them, without the blanks around cells.
 class Parser {
 public:
-    explicit Parser(char delimiter) {
-        if (csv_init(&parser_, CSV_STRICT) != 0)
-            throw std::bad_alloc();
-        csv_set_delim(&parser_, static_cast<unsigned char>(delimiter));
-        csv_set_blk_size(&parser_, 4096);
-    }
-    ~Parser() { csv_free(&parser_); }
-    Parser(const Parser&) = delete;
-    Parser& operator=(const Parser&) = delete;
+    explicit Parser(char delimiter) : delimiter_(delimiter) {}
 
     /// Takes a line; false where a quote stands where none may.
     bool take(std::string_view line) {
-        const bool good = csv_parse(&parser_, line.data(), line.size(), &take_cell, &end_record,
-                                    this) == line.size();
-        if (!good && csv_error(&parser_) == CSV_ENOMEM)
-            throw std::bad_alloc();
-        return good;
+        return std::ranges::all_of(line, [this](char sign) { return take(sign); });
     }
 
     CsvRecord record;
     bool ended = false;
 
 private:
-    // An exception must not cross a library in C, so cells are bounded by their lines.
-    static void take_cell(void* bytes, std::size_t size, void* self) {
-        auto& cells = static_cast<Parser*>(self)->record.cells;
-        if (cells.size() <= most_cells)
-            cells.emplace_back(static_cast<const char*>(bytes), size);
-    }
-    static void end_record(int, void* self) { static_cast<Parser*>(self)->ended = true; }
+    /// What has been read of the present cell.
+    enum class Part { none, plain, quoted, closed, closed_and_blank };
 
-    csv_parser parser_{};
+    bool take(char sign) {
+        if (part_ == Part::quoted && sign != '"') {
+            cell_ += sign;
+            return true;
+        }
+        if (sign == '"') // opens a cell, closes it, or is the second of two, which stand for one
+            return take_quote();
+        if (sign == delimiter_ || sign == '\r' || sign == '\n') {
+            if (!ended) // else it is the second sign of a line's end
+                end_cell();
+            ended |= sign != delimiter_;
+            return true;
+        }
+        const bool is_closed = part_ == Part::closed || part_ == Part::closed_and_blank;
+        if (sign == ' ' || sign == '\t') {
+            if (part_ == Part::plain)
+                cell_ += sign;
+            else if (is_closed)
+                part_ = Part::closed_and_blank;
+            return true;
+        }
+        cell_ += sign;
+        part_ = Part::plain;
+        return !is_closed;
+    }
+
+    bool take_quote() {
+        if (part_ == Part::closed)
+            cell_ += '"';
+        else if (part_ == Part::plain || part_ == Part::closed_and_blank)
+            return false;
+        part_ = part_ == Part::quoted ? Part::closed : Part::quoted;
+        return true;
+    }
+
+    void end_cell() {
+        if (part_ == Part::plain)
+            cell_.erase(cell_.find_last_not_of(" \t") + 1);
+        if (record.cells.size() <= most_cells)
+            record.cells.push_back(cell_);
+        cell_.clear();
+        part_ = Part::none;
+    }
+
+    char delimiter_;
+    std::string cell_ = {};
+    Part part_ = Part::none;
 };
 
 } // namespace
@@ -98,9 +126,10 @@ std::string csv_cell(const std::string& text) {
                        !text.starts_with('\t') && !text.ends_with(' ') && !text.ends_with('\t');
     if (plain)
         return text;
-    std::string cell(2 * text.size() + 2, '\0');
-    cell.resize(csv_write(cell.data(), cell.size(), text.data(), text.size()));
-    return cell;
+    std::string cell = "\"";
+    for (const char sign : text)
+        cell.append(sign == '"' ? 2 : 1, sign);
+    return cell + '"';
 }
 
 std::string csv_place(const std::string& file, std::size_t line) {

@@ -36,6 +36,7 @@ series = "none"
 [gravity]
 [bonds]
 """
+MODULE = SOURCES / "apps/page/listric.wasm.gz"  # where .ci/run page has made it
 LINKED = re.compile(r"<a\b[^>]*?\bhref=[\"']([^\"'#]*)(?:#([^\"']*))?[\"']")
 
 
@@ -83,8 +84,14 @@ class Site(unittest.TestCase):
         self.assertIn("record/2026-11/accuracy.md", self.not_in_menu())
 
     def test_a_section_is_drawn_without_installing(self):
-        self.assertIn('<a href="try/lis1-drawing.html">draw a section</a>', self.pages[Path("index.html")])
-        self.assertIn('"scene":"lis1"', (self.site / "try/lis1-drawing.html").read_text())
+        home = self.pages[Path("index.html")]
+        self.assertIn('<a href="try/draw.html">draw a section</a>', home)
+        self.assertIn('"scene":"lis1"', (self.site / "try/draw.html").read_text())
+        for name in ("lis1", "lis2", "rfr"):
+            self.assertEqual(f'<a href="try/draw.html#{name}">run <code>{name}</code></a>' in home, MODULE.exists())
+        self.assertEqual("lack the model for pages" in home, not MODULE.exists())
+        self.assertRegex(home, r'<a href="try/draw.html[^"]*"><img [^>]*src="pictures/lis1.webp"')
+        self.assertLess(home.index("Try it now"), home.index(">installing<"))
 
     def test_a_finished_run_is_explored_without_installing(self):
         self.assertIn('<a href="try/report.html">explore a finished run</a>', self.pages[Path("index.html")])

@@ -81,9 +81,8 @@ TEST_F(FileTest, MessagesNameFileAndCause) {
 
 TEST_F(FileTest, Hdf5TextsOfAnyLength) {
     using namespace archive;
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    const Handle file(H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                      H5Fclose, "file");
+    prepare_hdf5(1.0);
+    const Handle file = make_file();
     const std::string text(70'000, 'x');
     for (const std::string& t : {text, std::string(), std::string("Höhe\n")}) {
         const std::string name = fmt::format("text {}", t.size());

@@ -36,7 +36,6 @@ class Listric(CMakePackage):
     depends_on("eigen@3.4:")
     depends_on("pugixml")
     depends_on("zlib-api")
-    depends_on("libcsv")
     depends_on("dealii@9.4:+mpi+petsc+p4est", when="+fem")
     depends_on("petsc+mpi", when="+mpi")
     depends_on("mpi", when="+mpi")
