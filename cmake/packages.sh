@@ -8,5 +8,5 @@ test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-se
     python3-paraview xvfb xauth)
 fem_packages=(libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh)
 ranks_packages=(petsc-dev libopenmpi-dev openmpi-bin)
-wasm_packages=(clang-19 lld-19 llvm-19 libclang-rt-19-dev-wasm32 wasi-libc binaryen zopfli nodejs) # for .ci/run page
+wasm_packages=(clang-19 lld-19 llvm-19 libclang-rt-19-dev-wasm32 wasi-libc binaryen zopfli nodejs firefox-esr) # for .ci/run page
 ci_packages=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 pyflakes3 ccache git qemu-user zsh fish ffmpeg)

@@ -37,11 +37,11 @@ class Firefox:
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for _ in range(1200):
             try:
-                self.stream = socket.create_connection(("127.0.0.1", port)).makefile("rwb")
+                self.socket = socket.create_connection(("127.0.0.1", port))
                 break
             except ConnectionRefusedError:
                 time.sleep(0.1)
-        self.count = 0
+        self.stream, self.count = self.socket.makefile("rwb"), 0
         self.read()
         self.call("WebDriver:NewSession", capabilities={})
 
@@ -65,6 +65,8 @@ class Firefox:
         return self.call("WebDriver:ExecuteScript", script=text, args=[])["value"]
 
     def close(self):
+        self.stream.close()
+        self.socket.close()
         self.process.terminate()
         self.process.wait()
 

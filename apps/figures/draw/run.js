@@ -29,8 +29,10 @@ const longestSilence = 120; // seconds after which a worker may be gone: nobody 
 async function beginRuns() {
   if (isUnderWay() && !confirm("This ends the runs under way. What they have found is lost, unless you save it first."))
     return;
-  for (const run of runs) run.worker?.terminate();
-  runs.length = 0;
+  for (const run of runs.splice(0)) {
+    run.worker?.terminate();
+    run.worker = null;
+  }
   const faults = showState();
   if (faults.length) return tellRun(faults[0].message);
   const first = Number(page.state.scene.seed ?? 1), count = clamp(Math.round(Number($("seeds").value)) || 1, 1, 8);

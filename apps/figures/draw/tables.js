@@ -50,8 +50,22 @@ function handlesNow(shape, chain) {
 
 function pickHandles() {
   const line = lineNow();
-  return line ? line.x_m.map((x, k) => ({key: `pick ${k}`, kind: "pick", x, y: -line.depth_m[k],
-    label: `Point ${k + 1} of ${line.name} at x ${placeText(x)}, depth ${placeText(line.depth_m[k])}`})) : [];
+  return line ? shownPicks(line).map(k => ({key: `pick ${k}`, kind: "pick", x: line.x_m[k], y: -line.depth_m[k],
+    label: `Point ${k + 1} of ${line.name} at x ${placeText(line.x_m[k])}, depth ${placeText(line.depth_m[k])}`})) : [];
+}
+
+/** Points of a line that a hand can tell apart: all of a short one, else one in each square of the view, and the chosen
+ * one. */
+function shownPicks(line) {
+  const all = line.x_m.map((_, k) => k), {section} = page, taken = new Set(), square = 12; // pixels
+  if (all.length <= 500) return all;
+  return all.filter(k => {
+    const [column, row] = section.px(line.x_m[k], line.depth_m[k]);
+    const isIn = column >= 0 && column <= section.width && row >= 0 && row <= section.height;
+    const place = `${Math.floor(column / square)} ${Math.floor(row / square)}`, isFirst = isIn && !taken.has(place);
+    if (isFirst) taken.add(place);
+    return isFirst || page.chosen === `pick ${k}`;
+  });
 }
 
 function lineNow(state = page.state) { return page.line ? state.picks[page.line.kind]?.[page.line.index] : undefined; }
