@@ -1,7 +1,7 @@
 """The drawing page with the model in it: what it reads, says, predicts and writes is what the program has. `.ci/run page`
 calls it.
 
-    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page_draw
+    LISTRIC_PROGRAM=../../build/ci/listric python3 -m unittest page.page_draw
 """
 
 import json
