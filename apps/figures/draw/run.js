@@ -55,7 +55,8 @@ async function beginChecks() {
       tellRun(page.otherModel = `The model here is of listric ${data.program.version}, and may compute other bits. `);
     if (!data.failed && !data.read || data.number !== checker.number) return; // of something else, or of before
     checker.verdict = data.failed ? {fault: asOfFile(data.failed)} : data.read;
-    showState();
+    const show = () => page.drag ? setTimeout(show, 100) : showState(); // more lines would move what is dragged
+    show();
   };
   worker.postMessage({load: await moduleBytes()});
   checker.worker = worker;

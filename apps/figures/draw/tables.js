@@ -297,6 +297,7 @@ function showState() {
     : verdict?.fault ? verdict.fault
     : verdict ? [`The program finds no fault. ${costText()}`, ...verdict.warnings].join("\n")
     : `This page finds no fault in what it tests: forms, pieces, depth and number of discs. listric check ./${baseName()}.toml decides. ${costText()}`;
+  box.style.minHeight = `${box.offsetHeight}px`; // it grows alone: the section below must not move under a hand
   page.forms.show(page.state.scene, faults);
   return faults;
 }
