@@ -116,6 +116,14 @@ class PageLimits(RunningPage):
         self.script("$('run').click();")
         self.assertIn("glaciers", self.wait_for("$('run_state').textContent"))
 
+    def test_the_section_stays_under_the_hand_as_a_verdict_comes(self):
+        self.wait_for("checker.verdict")
+        top = self.script("""
+            change("", state => { state.scene.extension.distance_m = 520; });
+            return page.section.svg.getBoundingClientRect().top;""")
+        self.wait_for("checker.verdict")
+        self.assertAlmostEqual(self.script("return page.section.svg.getBoundingClientRect().top"), top, delta=1)
+
     def test_examples_are_taken_by_name_and_address(self):
         self.script("location.hash = 'rfr';")
         self.wait_for("page.state.file === 'rfr.toml'")

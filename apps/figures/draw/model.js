@@ -124,7 +124,8 @@ function takeVerdict(data) {
   if (data.read) page.now = data.read;
   checker.verdict = data.failed ? {fault: asOfFile(data.failed)} : data.read;
   for (const done of checker.waiting.splice(0)) done();
-  showVerdict();
+  const show = () => page.drag ? setTimeout(show, 100) : showVerdict(); // more lines would move what is dragged
+  show();
 }
 
 function checkSoon() {
