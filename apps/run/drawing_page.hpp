@@ -22,9 +22,9 @@ struct UnderPicture {
 
 /// Page in which a section is drawn, beginning with a scene: one file that asks for no other. It
 /// holds the schema of scenes, for its forms, and the model, which reads, checks, predicts and runs
-/// (apps/page), if this program has it. The speed of this machine with so many threads is measured, in
-/// about a second, once all else is known to be good. Throws SceneError, UsageError if there is no
-/// such picture, and StorageError if a file of the program's is missing.
+/// (apps/page), if this program has it. The speed of this machine with so many threads is measured,
+/// in about a second, once all else is known to be good. Throws SceneError, UsageError if there is
+/// no such picture, and StorageError if a file of the program's is missing.
 std::string drawing_html(const std::string& scene, const std::optional<UnderPicture>& picture,
                          int threads, EffectList effects);
 

@@ -1,4 +1,4 @@
-"""The drawing page in a real browser, without the model: what a hand does in it. page_draw.py has the page with the model.
+"""The drawing page in a real browser, without the model: what a hand does in it. page/page_draw.py has the page with the model.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest draw_test
 

@@ -21,7 +21,7 @@ function measureUnit(name) { return facts.measures[name.replace("number of ", ""
 function roundNumbers(low, high, count) {
   const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
   const step = power * [1, 2, 5, 10].find(k => k * power >= raw), first = Math.ceil(low / step);
-  return Array.from({length: Math.floor(high / step) - first + 1}, (_, k) => (first + k) * step);
+  return Array.from({length: Math.floor(high / step + 1e-3) - first + 1}, (_, k) => (first + k) * step);
 }
 
 function svgElement(name, attributes, ...children) {
@@ -69,7 +69,8 @@ function linesOfChart({label, points}, k, column, row) {
   const stroke = chartColours[k % chartColours.length], dashes = k < chartColours.length ? "none" : "5 3";
   const places = points.map(([x, y]) => [column(x).toFixed(1), row(y).toFixed(1)]);
   const d = `M${places.map(place => place.join(" ")).join("L")}`;
-  const line = svgElement("path", {d, stroke, "stroke-dasharray": dashes, class: "line"}, svgElement("title", {}, label));
+  const title = svgElement("title", {}, label);
+  const line = svgElement("path", {d, stroke, "stroke-dasharray": dashes, class: "line"}, title);
   return [line, ...places.map(([cx, cy]) => svgElement("circle", {cx, cy, r: 2, fill: stroke}))];
 }
 

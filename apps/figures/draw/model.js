@@ -36,8 +36,8 @@ function answerOf(name, value) {
 /** What the module reads in place of files, and which scene of it; at draft, where it is run and says nothing else. Picks of a
  * file that nobody has dropped are left out. A shipped scene as it is goes by its name, by which its errors are known. */
 function requestNow(seed) {
-  const name = shippedNow(), path = `/${baseName()}.toml`, files = {...facts.files, ...page.given};
-  if (!name) files[path] = page.fresh && !missingFiles().length ? page.fresh : sceneText(hasPicks);
+  const name = shippedNow(), path = `/${baseName()}.toml`, text = page.fresh && !missingFiles().length ? page.fresh : sceneText(hasPicks);
+  const files = {...facts.files, ...page.given, ...(name ? {} : {[path]: text})};
   for (const kind of pickKinds.filter(hasPicks)) files[`/${picksFile(kind)}`] = picksText(kind);
   const {accuracy = "draft"} = page.state.scene;
   return {files, request: {scene: name || path, ...(seed === undefined ? {} : {accuracy, seed})}};
@@ -124,7 +124,8 @@ function takeVerdict(data) {
   if (data.read) page.now = data.read;
   checker.verdict = data.failed ? {fault: asOfFile(data.failed)} : data.read;
   for (const done of checker.waiting.splice(0)) done();
-  showVerdict();
+  const show = () => page.drag ? setTimeout(show, 100) : showVerdict(); // more lines would move what is dragged
+  show();
 }
 
 function checkSoon() {

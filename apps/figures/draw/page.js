@@ -119,7 +119,7 @@ async function begin() {
   showWhole();
   if (page.badPicture) tell(page.badPicture);
   $("footer").textContent = `${facts.program}. One file: nothing leaves this computer. Drop TOML, CSV of picks, PNG or JPEG anywhere.`;
-  if (hasModule) takeExampleOfAddress();
+  if (model) takeExampleOfAddress();
   $("licence_texts").textContent = $("notices").textContent;
   $("trouble").hidden = true;
 }

@@ -303,6 +303,7 @@ function showState() {
     : verdict ? [`The program finds no fault. ${costText()}`, ...verdict.warnings].join("\n")
     : model ? `The program reads the scene. ${costText()}`
     : `This page has no model, so it tests no more than that numbers are some. listric check ./${baseName()}.toml decides. ${costText()}`;
+  box.style.minHeight = `${box.offsetHeight}px`; // it grows alone: the section below must not move under a hand
   page.forms.show(page.state.scene, faults);
   return faults;
 }

@@ -81,7 +81,7 @@ class PageLimits(RunningPage):
 
     def test_twenty_thousand_picked_points(self):
         rows = "\n".join(f"top,{1000 + k},{500 + k % 100}" for k in range(20_000))
-        self.script("takeCsv(a[0], 'horizons.csv');", "name,x_m,depth_m\n" + rows)
+        self.script("takePicks(a[0], 'horizons.csv');", "name,x_m,depth_m\n" + rows)
         self.assertEqual(self.script("return page.state.picks.horizons[0].x_m.length"), 20_000)
         self.assertEqual(self.script("return picksText('horizons').split('\\n').length"), 20_002)
         self.assertLess(self.script("return page.section.handles.length"), 1000)  # more would take a browser minutes
@@ -102,7 +102,7 @@ class PageLimits(RunningPage):
         self.wait_for("runs[0]?.summary || runs[0]?.failure")
         self.assertEqual(self.script("return runs[0].failure"), "")
         self.assertIsNone(self.script("return window.hurt ?? null"))
-        self.assertEqual(self.script("return readToml(sceneText()).document.description"), NAME)
+        self.assertEqual(self.script("return page.state.scene.description"), NAME)
         self.assertEqual(self.script("return runs[0].summary.observed[0].name"), NAME)
         folder = self.unpacked(self.script("return runs[0].name"))
         self.assertTrue((folder / "summary.json").exists())
@@ -115,6 +115,14 @@ class PageLimits(RunningPage):
         self.assertIn("glaciers", self.toml())
         self.script("$('run').click();")
         self.assertIn("glaciers", self.wait_for("$('run_state').textContent"))
+
+    def test_the_section_stays_under_the_hand_as_a_verdict_comes(self):
+        self.wait_for("checker.verdict")
+        top = self.script("""
+            change("", state => { state.scene.extension.distance_m = 520; });
+            return page.section.svg.getBoundingClientRect().top;""")
+        self.wait_for("checker.verdict")
+        self.assertAlmostEqual(self.script("return page.section.svg.getBoundingClientRect().top"), top, delta=1)
 
     def test_examples_are_taken_by_name_and_address(self):
         self.script("location.hash = 'rfr';")

@@ -48,7 +48,7 @@ class PageSave(RunningPage):
         self.assertEqual(told["Extension"], "700 m")
         self.assertEqual(told["Tilt of the head block"], f"{summary['rollover_tilt_deg']:.1f}°")
         self.assertIn("mass error", self.script("return runs[0].verdict.textContent"))
-        history = list(csv.DictReader((native / "history.csv").open()))
+        history = list(csv.DictReader((native / "history.csv").read_text().splitlines()))
         chart = self.script("""
             $("charted").value = "basin_area_m2";
             $("charted").onchange();
@@ -73,7 +73,7 @@ class PageSave(RunningPage):
         self.assertIn("is damaged", ended.stdout)
         snapshot.write_bytes(whole[:5000])
         ended = listric("report", folder.name, cwd=self.folder)
-        self.assertIn("extension-00500.00m.h5: is damaged", ended.stdout)
+        self.assertRegex(ended.stdout, "extension-00500.00m.h5: .*truncated")
         ended = listric("report", "downloads/short-seed-1.zip", cwd=self.folder)
         self.assertEqual(ended.returncode, 2)
         self.assertIn("unpack it first", ended.stdout)
