@@ -157,7 +157,7 @@ TEST(Motion, TheBaseRunsWhereItsKindSays) {
 TEST(Motion, AChainSolesOutWhereItStaysLevel) {
     EXPECT_EQ(sole_out({}), 0.0);
     EXPECT_EQ(sole_out({line({0.0, -5.0}, {9.0, -5.0})}), 0.0);
-    EXPECT_NEAR(sole_out(listric_chain(15e3, 40e3)), 15e3, 1e-9);
+    EXPECT_NEAR(sole_out(support::listric_chain(15e3, 40e3)), 15e3, 1e-9);
     EXPECT_NEAR(sole_out({arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 0.5 * pi)}), 7e3, 1e-9); // at its end
     // Not at the flat between two ramps.
     EXPECT_EQ(sole_out({line({0.0, 0.0}, {1.0, -1.0}), line({1.0, -1.0}, {3.0, -1.0}),
