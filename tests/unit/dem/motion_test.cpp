@@ -151,7 +151,8 @@ TEST(Motion, TheBaseRunsWhereItsKindSays) {
     EXPECT_EQ(slip({3e3 * c + 100.0 * s, -3e3 * s + 100.0 * c}), 0.0);
     EXPECT_EQ(slip({8e3, -2900.0}), 2.0);
     // Over the end of the ramp a disc stands beyond it and rests on it all the same.
-    EXPECT_EQ(slip({soles_out - 10.0 * c + 100.0 * s, -3e3 + 10.0 * s + 100.0 * c}), 0.0);
+    const double steep = 80.0 * pi / 180.0; // between the half of the corner's 150 degrees and 90
+    EXPECT_EQ(slip({soles_out + 105.0 * std::cos(steep), -3e3 + 105.0 * std::sin(steep)}), 0.0);
 }
 
 TEST(Motion, AChainSolesOutWhereItStaysLevel) {
