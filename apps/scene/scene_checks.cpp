@@ -224,10 +224,10 @@ void check_scene(const Scene& scene, const toml::table& document, EffectList eff
     check_picks(scene, document);
     if (scene.observed)
         check_picture(*scene.observed, document);
+    check_ground(scene, document);
     check_base(scene, document);
     check_needs(scene, document, effects);
     check_drivers(scene, document);
-    check_ground(scene, document);
     check_resolution(scene, document);
     const Refuse refuse = [&](const std::string& path, const std::string& message) {
         fail(entry_at(document, path), message);

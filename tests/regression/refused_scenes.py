@@ -54,7 +54,7 @@ def refused_scenes():
         "a file that is not there": lis1 + layer(top_csv='"no-such.csv"', thickness_m=500.0),
         # stages
         "distance and pause": free + stage(distance_m=1000.0) + stage(distance_m=1000.0, pause_a=1e5),
-        "neither distance nor pause": free + stage(distance_m=1000.0) + table("[[stage]]", base='"moves"'),
+        "neither distance nor pause": free + stage(distance_m=1000.0) + table("[[stage]]", base='"sheet"'),
         "a stage of nothing": free + stage(distance_m=0.0),
         "a pause with a rate": free + stage(distance_m=1000.0) + stage(pause_a=1e5, rate_m_per_a=0.01),
         "shortening without ground": bare + stage(distance_m=1000.0) + stage(distance_m=-500.0),

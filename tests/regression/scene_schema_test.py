@@ -40,6 +40,7 @@ BEYOND_A_SCHEMA = {
     "old faults": r"needs points|has one point|outside of the hanging wall|shorter than its band",
     "stages": r"a stage (moves|that does)|shortening, which needs|but the wall rests|the wall comes to|net shortening|"
               r"the first stage's rate|moves what lies on it",
+    "the ground": r"both shape the ground|the ground falls to the|deep, allowed: at most hanging_wall",
     "order": r"is not sorted",
     "other files": r"no such file|has no \[bonds\]",
     "nan and inf": r"\((nan|-?inf)\)",

@@ -160,7 +160,7 @@ std::string way_text(double length, double of) {
 }
 
 std::string length_text(double length) {
-    const auto [unit, name] = unit_of(length);
+    const auto [unit, name] = unit_of(std::abs(length));
     return fmt::format("{:.2f} {}", length / unit, name);
 }
 

@@ -77,6 +77,23 @@ TEST_F(Bases, AStageHasThatOfTheDetachmentOrItsOwn) {
                 HasSubstr("rests"));
 }
 
+// Below 0.23 a wedge of sand slides whole down 20 degrees, above it yields inside. Coarse, at 400
+// m, five seeds: slip of 0.85 to 0.92 of the wall's with a friction of 0.1, 0.03 to 0.07 with 0.35.
+TEST_F(Bases, SandSlidesDownARampBelowItsFrictionsLimit) {
+    const auto slides = [&](const std::string& friction) {
+        const Scene sand = load(contents(test_scene("sand-ramp.toml")),
+                                {"hanging_wall.mean_radius_m=640.0", "extension.distance_m=400.0",
+                                 "detachment.friction=" + friction});
+        return run(sand, "sand" + friction);
+    };
+    const auto weak = slides("0.1"), strong = slides("0.35");
+    EXPECT_GT(weak["ramp_slip_ratio"].get<double>(), 0.7);
+    EXPECT_LT(strong["ramp_slip_ratio"].get<double>(), 0.2);
+    // The one has all of its friction, the other what holds the wedge, about the limit.
+    EXPECT_NEAR(weak["ramp_mobilised_friction"].get<double>(), -0.1, 0.005);
+    EXPECT_NEAR(strong["ramp_mobilised_friction"].get<double>(), -0.23, 0.07);
+}
+
 TEST_F(Bases, ElasticBasesHaveARampToo) {
     const Scene ramp = load_scene(
         {.scene = "lis1-elastic", .set = {"detachment.base=ramp"}, .without = {"pore_fluid"}});

@@ -151,13 +151,14 @@ TEST(Motion, TheBaseRunsWhereItsKindSays) {
     EXPECT_EQ(slip({3e3 * c + 100.0 * s, -3e3 * s + 100.0 * c}), 0.0);
     EXPECT_EQ(slip({8e3, -2900.0}), 2.0);
     // Over the end of the ramp a disc stands beyond it and rests on it all the same.
-    EXPECT_EQ(slip({soles_out - 10.0 * c + 100.0 * s, -3e3 + 10.0 * s + 100.0 * c}), 0.0);
+    const double steep = 80.0 * pi / 180.0; // between the half of the corner's 150 degrees and 90
+    EXPECT_EQ(slip({soles_out + 105.0 * std::cos(steep), -3e3 + 105.0 * std::sin(steep)}), 0.0);
 }
 
 TEST(Motion, AChainSolesOutWhereItStaysLevel) {
     EXPECT_EQ(sole_out({}), 0.0);
     EXPECT_EQ(sole_out({line({0.0, -5.0}, {9.0, -5.0})}), 0.0);
-    EXPECT_NEAR(sole_out(listric_chain(15e3, 40e3)), 15e3, 1e-9);
+    EXPECT_NEAR(sole_out(support::listric_chain(15e3, 40e3)), 15e3, 1e-9);
     EXPECT_NEAR(sole_out({arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 0.5 * pi)}), 7e3, 1e-9); // at its end
     // Not at the flat between two ramps.
     EXPECT_EQ(sole_out({line({0.0, 0.0}, {1.0, -1.0}), line({1.0, -1.0}, {3.0, -1.0}),

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 using support::contents;
 
 constexpr const char* shipped =
-    "rock: mat18-b; faults: mat18-w-frictional (friction 0.2); sediment: sediment; detachment "
-    "friction 0.5";
+    "rock: mat18-b; faults: mat18-w-frictional (friction 0.2); sediment: sediment; detachment: "
+    "sheet (pulls), friction 0.5";
 constexpr const char* without_sediment = "rock: mat18-b; faults: mat18-w-frictional (friction "
                                          "0.2); detachment: sheet (pulls), friction 0.5";
 

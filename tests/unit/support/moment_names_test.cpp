@@ -78,6 +78,7 @@ TEST(MomentNames, LengthsAreToldInTheirUnit) {
     EXPECT_EQ(way_text(520.0, 10e3), "0.52 of 10.00 km");
     EXPECT_EQ(way_text(0.0105, 0.04), "10.50 of 40.00 mm");
     EXPECT_EQ(length_text(2500.0), "2.50 km");
+    EXPECT_EQ(length_text(-1000.0), "-1.00 km"); // shortened
     EXPECT_EQ(length_text(100.016, 100.0), "100.02 m");
     EXPECT_EQ(length_text(0.0113, 0.004), "0.011 m");
 }
