@@ -49,9 +49,6 @@ TEST_F(Bases, WhatRestsHoldsAndWhatMovesPulls) {
     EXPECT_LT(rests["ramp_mobilised_friction"].get<double>(), 0.0);
     EXPECT_GT(sheet["ramp_mobilised_friction"].get<double>(),
               ramp["ramp_mobilised_friction"].get<double>());
-    // Down a ramp at rest rock slips about as fast as the wall moves; a sheet carries it.
-    EXPECT_GT(ramp["ramp_slip_ratio"].get<double>(), 0.5);
-    EXPECT_LT(sheet["ramp_slip_ratio"].get<double>(), 0.5);
     for (const auto& summary : {sheet, rests, ramp}) {
         EXPECT_GT(summary["wall_force_n_per_m"].get<double>(), 0.0);
         EXPECT_LE(std::abs(summary["flat_mobilised_friction"].get<double>()), 0.5);
@@ -95,8 +92,7 @@ TEST_F(Bases, SandSlidesDownARampBelowItsFrictionsLimit) {
 }
 
 TEST_F(Bases, ElasticBasesHaveARampToo) {
-    const Scene ramp = load_scene(
-        {.scene = "lis1-elastic", .set = {"detachment.base=ramp"}, .without = {"pore_fluid"}});
+    const Scene ramp = load_scene({.scene = "lis1-elastic", .set = {"detachment.base=ramp"}});
     EXPECT_NEAR(make_rigid_base(ramp).motion.runs_from, 15e3, 1e-6);
 }
 
