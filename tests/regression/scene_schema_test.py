@@ -95,6 +95,8 @@ def some_value(schema, dice):
     if kind == "array":
         if "anyOf" in schema:
             return some_target(dice)
+        if isinstance(schema["items"], list):                          # a point
+            return [some_value(one, dice) for one in schema["items"]][:dice.choice([1, 2, 2, 2])]
         return [some_value(schema["items"], dice) for _ in range(dice.randrange(3))]
     if kind == "object":
         return {key: some_value(value, dice) for key, value in schema["properties"].items()
