@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> list_snapshots(const fs::path& output) {
     if (is_file(output))
-        throw UsageError(fmt::format("{}: is a file, needs the folder of a run{}", output.string(),
-                                     output.extension() == ".zip" ? "; unpack it first" : ""));
+        throw UnreadableFile(fmt::format("{}: is not a directory, needs the folder of a run{}",
+                                         output.string(),
+                                         output.extension() == ".zip" ? "; unpack it first" : ""));
     std::vector<fs::path> snapshots;
     std::error_code error;
     const auto require_known = [&](const fs::path& path) { // else a run would begin anew

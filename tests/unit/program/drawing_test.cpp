@@ -26,7 +26,7 @@ Json document_of(const std::string& text) {
     return scene_document({.scene = "/s.toml"}, program_effects());
 }
 
-TEST(Drawing, ScenesComeBackFromThePageAsTheyWent) {
+TEST(DrawnScene, ScenesComeBackFromThePageAsTheyWent) {
     for (const auto& [name, description] : list_scenes()) {
         const Json document = scene_document({.scene = name}, program_effects());
         // Through a page, whose numbers do not tell 1 from 1.0.
@@ -40,7 +40,7 @@ TEST(Drawing, ScenesComeBackFromThePageAsTheyWent) {
     }
 }
 
-TEST(Drawing, WhatNoNumberHoldsStaysText) {
+TEST(DrawnScene, WhatNoNumberHoldsStaysText) {
     const std::string text = "seed = 9223372036854775807\n\"odd key\" = [inf, 1979-05-27]\n"
                              "[[stage]]\ndistance_m = 1\n[[stage]]\n";
     const Json document = document_of(text);
@@ -51,7 +51,7 @@ TEST(Drawing, WhatNoNumberHoldsStaysText) {
               "distance_m = 1.0\n\n[[stage]]\n");
 }
 
-TEST(Drawing, AValueIsReadAndRefusedInTheWordsOfTheProgram) {
+TEST(DrawnScene, AValueIsReadAndRefusedInTheWordsOfTheProgram) {
     const auto facts = [](const std::string& path, const std::string& text) {
         return value_facts({.scene = "lis1", .set = {path + "=" + text}}, path, program_effects());
     };
@@ -63,7 +63,7 @@ TEST(Drawing, AValueIsReadAndRefusedInTheWordsOfTheProgram) {
               std::string::npos);
 }
 
-TEST(Drawing, CurvesAreThoseOfInclinedShear) {
+TEST(DrawnScene, CurvesAreThoseOfInclinedShear) {
     const Json detachment = scene_document({.scene = "lis2"}, program_effects())["detachment"];
     const Scene scene = load_scene({.scene = "lis2"}, program_effects());
     const Json found = kinematics_json({{"detachment", detachment},
@@ -93,7 +93,7 @@ TEST(Drawing, CurvesAreThoseOfInclinedShear) {
         SceneError);
 }
 
-TEST(Drawing, AFaultIsFittedAsASceneHasIt) {
+TEST(DrawnScene, AFaultIsFittedAsASceneHasIt) {
     std::string points = "x_m,depth_m\n";
     for (int k = 0; k < 10; ++k) // an arc from the vertical to the flat
         points += fmt::format("{},{}\n", 1e4 - 1e4 * std::cos(k * dem::pi / 18.0),
