@@ -75,7 +75,7 @@ class PageSave(RunningPage):
         ended = listric("report", folder.name, cwd=self.folder)
         self.assertRegex(ended.stdout, "extension-00500.00m.h5: .*truncated")
         ended = listric("report", "downloads/short-seed-1.zip", cwd=self.folder)
-        self.assertEqual(ended.returncode, 2)
+        self.assertEqual(ended.returncode, 4)
         self.assertIn("unpack it first", ended.stdout)
 
     def test_the_program_goes_on_with_one_that_was_stopped(self):
