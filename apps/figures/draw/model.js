@@ -55,19 +55,20 @@ function plainText(value) {
 /** A document as TOML; without the model, as the page was given it and changed it. */
 function textOf(document) {
   if (model) return model.ask("text", document);
-  const isTable = value => typeof value === "object" && !Array.isArray(value), all = Object.entries(document);
+  const isTable = value => typeof value === "object" && (!Array.isArray(value) || typeof value[0] === "object"), all = Object.entries(document);
   const lines = entries => entries.map(([key, value]) => `${key} = ${plainText(value)}\n`).join("");
   return lines(all.filter(([, value]) => !isTable(value))) +
-    all.filter(([, value]) => isTable(value)).map(([name, table]) => `\n[${name}]\n${lines(Object.entries(table))}`).join("");
+    all.filter(([, value]) => isTable(value)).flatMap(([name, value]) => Array.isArray(value) ? value.map(table => [`[[${name}]]`, table]) : [[`[${name}]`, value]])
+      .map(([head, table]) => `\n${head}\n${lines(Object.entries(table))}`).join("");
 }
 
 /** What a text in the field of a parameter stands for: {value}, {missing}, or {fault}. */
 function valueOf(path, text) {
-  const {type} = schemaAt(path) || {};
+  const {type, items} = schemaAt(path) || {}, opens = items?.type === "array" ? /^\[\s*\[/ : /^\[/;
   text = text.trim();
   if (text === "") return {missing: true};
   if (!["number", "integer", "boolean", "array"].includes(type)) text = JSON.stringify(text);
-  else if (type === "array" && !text.startsWith("[")) text = `[${text}]`;
+  else if (type === "array" && !opens.test(text)) text = `[${text}]`;
   else text = text.replace(/^\+?\./, "0.");
   if (model) return valueByModel(path, text);
   if (!schemaAt(path)) return {fault: "unknown key"};
@@ -78,12 +79,21 @@ function valueOf(path, text) {
   }
 }
 
+/** In a list --set sets the whole of it, so that the value is tried in one of its own; what a text is, any key tells. */
 function valueByModel(path, text) {
-  const scene = "/now.toml", assignment = `${path}=${text}`, ours = `--set ${assignment}: `;
+  const [, list, index, key] = /^(\w+)\[(\d+)\]\.(\w+)$/.exec(path) || [];
+  if (!list) return valueSet(path, text, path);
+  const {value} = valueSet("name", text, "name"), typed = typeof value === "string" ? JSON.stringify(value) : text;
+  const {fault} = valueSet(list, `[{${key} = ${typed}}]`, `${list}[0].${key}`);
+  return {value, fault: fault?.replace(`${list}[0]`, `${list}[${index}]`)};
+}
+
+function valueSet(name, text, path) {
+  const scene = "/now.toml", assignment = `${name}=${text}`, ours = `--set ${assignment}: `;
   model.give(scene, textOf(page.state.scene));
   const {value, fault} = answerOf("value", {scene, set: [assignment], path});
   if (!fault?.startsWith(ours)) return {value}; // something else is wrong, and was before
-  return {fault: fault.slice(ours.length).replace(`${path}: `, "")};
+  return {value, fault: fault.slice(ours.length).replace(`${path}: `, "")};
 }
 
 const numberOf = text => text.trim() && Number.isFinite(Number(text)) ? Number(text) : undefined;
@@ -144,6 +154,6 @@ async function verdictNow() {
 /** What is wrong: fields whose texts are refused, or else what the program refuses: [{path, message}]. */
 function faultsNow() {
   const typed = [...page.forms.bad].map(([path, message]) => ({path, message: `${path}: ${message}`}));
-  const {fault} = checker.verdict || {}, path = /(?:^|: )([a-z_]+(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
+  const {fault} = checker.verdict || {}, path = /(?:^|: )([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
   return typed.length || !fault ? typed : [{path, message: fault}];
 }
