@@ -18,8 +18,8 @@ const shortNumber = x => Math.abs(x) >= 1e6 || x !== 0 && Math.abs(x) < 1e-4 ? x
 
 const first = text => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** "stage" of stage[1].distance_m, "" of seed. */
-const tableNameOf = path => path.includes(".") ? path.split(/[.[]/)[0] : "";
+/** "stage" of stage.1.distance_m, "" of seed. */
+const tableNameOf = path => path.includes(".") ? path.split(".")[0] : "";
 
 /** A value as a field shows it. */
 function fieldText(value) { return typeof value === "string" ? value : plainText(value); }
@@ -75,7 +75,7 @@ class Forms {
   }
 
   itemOf(name, index) {
-    const {title, keys, add, items} = this.lists.get(name), path = `${name}[${index}]`, gist = element("span");
+    const {title, keys, add, items} = this.lists.get(name), path = `${name}.${index}`, gist = element("span");
     const fault = element("p", {className: "fault", role: "alert"}), controls = element("div", {className: "controls"});
     const button = (word, make) => {
       const made = element("button", {onclick: () => make(made)}, word);
@@ -129,7 +129,7 @@ class Forms {
   }
 
   fieldOf(path) {
-    const own = schemaAt(path), facts = own["x-listric"] || {}, key = keysOf(path).at(-1), id = `at_${path}`;
+    const own = schemaAt(path), facts = own["x-listric"] || {}, key = path.split(".").at(-1), id = `at_${path}`;
     const input = this.inputOf(own, id);
     const label = element("label", {htmlFor: id}, first(facts.doc || key));
     const notes = [facts.allowed, facts.usual && `usual ${facts.usual.map(shortNumber).join(" to ")}`].filter(Boolean).join("; ");
@@ -192,7 +192,7 @@ class Forms {
     for (const [name, table] of this.tables) {
       const isOn = name === "" || name in scene, box = table.querySelector(".switch");
       table.classList.toggle("off", !isOn);
-      table.classList.toggle("bad", name !== "" && faults.some(({path}) => path.split(/[.[]/)[0] === name));
+      table.classList.toggle("bad", name !== "" && faults.some(({path}) => path.split(".")[0] === name));
       if (box) box.checked = isOn;
     }
     this.showLists(scene, faults);
@@ -204,7 +204,7 @@ class Forms {
       if (isChoice && ![...input.options].some(option => option.value === text)) input.append(element("option", {value: text}, text)); // of an older scene
       if (input.value !== text) input.value = text;
       input.readOnly = this.isDrawn(path, scene);
-      const usual = isChoice || path.includes("[") ? own.default : defaultOf(path);
+      const usual = isChoice || this.lists.has(tableNameOf(path)) ? own.default : defaultOf(path);
       const word = usual === undefined ? (own["x-listric"]?.default ?? "").replace(/^""$/, "") : fieldText(usual);
       if (isChoice) input.options[0].textContent = word === "(none)" ? word : `${word} (default)`;
       else input.placeholder = word;
@@ -228,7 +228,7 @@ class Forms {
         here += fits;
       }
       const {items = [], keys = []} = this.lists.get(name) || {}; // an empty list has what its items would have
-      if (!items.length) here += keys.filter(key => words.every(word => this.searchedOf(`${name}[0].${key}`).includes(word))).length;
+      if (!items.length) here += keys.filter(key => words.every(word => this.searchedOf(`${name}.0.${key}`).includes(word))).length;
       table.style.display = here ? "" : "none";
       if (words.length && here) for (const details of table.querySelectorAll("details")) details.open = true;
       count += here;

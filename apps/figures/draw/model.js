@@ -71,7 +71,8 @@ function valueOf(path, text) {
   else if (type === "array" && !opens.test(text)) text = `[${text}]`;
   else text = text.replace(/^\+?\./, "0.");
   if (model) return valueByModel(path, text);
-  if (!schemaAt(path)) return {fault: "unknown key"};
+  const [table, item] = path.split(".");
+  if (!schemaAt(path) || Number(item) > (page.state.scene[table]?.length ?? 0)) return {fault: "unknown key"}; // the next item may be new
   try {
     return {value: JSON.parse(text)};
   } catch {
@@ -79,21 +80,12 @@ function valueOf(path, text) {
   }
 }
 
-/** In a list --set sets the whole of it, so that the value is tried in one of its own; what a text is, any key tells. */
 function valueByModel(path, text) {
-  const [, list, index, key] = /^(\w+)\[(\d+)\]\.(\w+)$/.exec(path) || [];
-  if (!list) return valueSet(path, text, path);
-  const {value} = valueSet("name", text, "name"), typed = typeof value === "string" ? JSON.stringify(value) : text;
-  const {fault} = valueSet(list, `[{${key} = ${typed}}]`, `${list}[0].${key}`);
-  return {value, fault: fault?.replace(`${list}[0]`, `${list}[${index}]`)};
-}
-
-function valueSet(name, text, path) {
-  const scene = "/now.toml", assignment = `${name}=${text}`, ours = `--set ${assignment}: `;
+  const scene = "/now.toml", assignment = `${path}=${text}`, ours = `--set ${assignment}: `, place = placeOf(path);
   model.give(scene, textOf(page.state.scene));
-  const {value, fault} = answerOf("value", {scene, set: [assignment], path});
+  const {value, fault} = answerOf("value", {scene, set: [assignment], path: place});
   if (!fault?.startsWith(ours)) return {value}; // something else is wrong, and was before
-  return {value, fault: fault.slice(ours.length).replace(`${path}: `, "")};
+  return {fault: fault.slice(ours.length).replace(`${place}: `, "")};
 }
 
 const numberOf = text => text.trim() && Number.isFinite(Number(text)) ? Number(text) : undefined;
@@ -153,7 +145,7 @@ async function verdictNow() {
 
 /** What is wrong: fields whose texts are refused, or else what the program refuses: [{path, message}]. */
 function faultsNow() {
-  const typed = [...page.forms.bad].map(([path, message]) => ({path, message: `${path}: ${message}`}));
-  const {fault} = checker.verdict || {}, path = /(?:^|: )([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
-  return typed.length || !fault ? typed : [{path, message: fault}];
+  const typed = [...page.forms.bad].map(([path, message]) => ({path, message: `${placeOf(path)}: ${message}`}));
+  const {fault} = checker.verdict || {}, place = /(?:^|: )([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
+  return typed.length || !fault ? typed : [{path: place.replace(/\[(\d+)\]/, ".$1"), message: fault}];
 }

@@ -2,7 +2,7 @@
 
 /** table.key = value sets, as --set does; other words filter the forms. */
 function find(final) {
-  const text = $("find").value.trim(), [, path, value] = /^([\w.[\]]+)\s*=\s*(.*)$/.exec(text) || [];
+  const text = $("find").value.trim(), [, path, value] = /^([\w.]+)\s*=\s*(.*)$/.exec(text) || [];
   const words = path ? [] : text.toLowerCase().split(/\s+/).filter(Boolean), count = page.forms.filter(words);
   if (path) $("found").textContent = setByText(path, value, final);
   else $("found").textContent = !text ? "" : count ? `${count} ${count === 1 ? "parameter" : "parameters"}`
@@ -12,7 +12,6 @@ function find(final) {
 function setByText(path, text, final) {
   const {value, fault} = valueOf(path, text);
   if (fault) return fault;
-  if (path.includes("[") && !valueIn(page.state.scene, path.replace(/\.\w+$/, ""))) return `${path}: the scene has no such table`;
   if (!final) return "Enter sets it";
   change("", state => setAt(state, path, value));
   return `${path} is set`;

@@ -7,6 +7,7 @@ calls it.
 import json
 import math
 import os
+import re
 import shutil
 import tomllib
 import unittest
@@ -69,14 +70,11 @@ class PageDraw(draw_test.Draw):
             self.assertEqual(list(self.downloads.glob("*")), [])
             self.type_at(path, "")
         self.assert_good()
-        find = self.driver.find_element("id", "find")
         for typed, why in (("extension.rate = 0.02", "did you mean rate_m_per_a?"), ("porosty", "did you mean hanging_wall.porosity"),
                            ("detachment.friction = -1", "at least 0")):
-            find.clear()
-            find.send_keys(typed)
+            self.type_into_find(typed)
             self.assertIn(why, self.text("found"))
-        find.clear()
-        find.send_keys("extension.rate_m_per_a = 0.02\n")
+        self.type_into_find("extension.rate_m_per_a = 0.02\n")
         self.assertEqual(self.scene()["extension"]["rate_m_per_a"], 0.02)
 
     def test_05b_forms_of_lists_refuse_and_say_why(self):
@@ -84,12 +82,12 @@ class PageDraw(draw_test.Draw):
         for name in ("stage", "layer", "old fault"):
             self.press(f"Add a{'n' * (name[0] == 'o')} {name}")
         self.press("Add a stage")
-        for path, typed, why in (("stage[1].distance_m", "5e7", r"^out of range \(5e7\), allowed: at least -1e6"),
-                                 ("stage[1].distance_m", "0,2", "^wrong type .*decimal comma; write 0.2"), ("stage[0].pause_a", "long", '^wrong type .string "long"'),
-                                 ("old_fault[0].points", "[1, 2], [3]", r"^old_fault\[0\].points\[1\]: needs two numbers"),
-                                 ("layer[0].friction", "-1", "^out of range"), ("layer[0].top", "deep", "^wrong type|needs")):
+        for path, typed, why in (("stage.1.distance_m", "5e7", r"^out of range \(5e7\), allowed: at least -1e6"),
+                                 ("stage.1.distance_m", "0,2", "^wrong type .*decimal comma; write 0.2"), ("stage.0.pause_a", "long", '^wrong type .string "long"'),
+                                 ("old_fault.0.points", "[1, 2], [3]", r"^old_fault\[0\].points\[1\]: needs two numbers"),
+                                 ("layer.0.friction", "-1", "^out of range"), ("layer.0.top", "deep", "^wrong type|needs")):
             self.assertRegex(self.type_at(path, typed), why)
-            self.assertIn(f"{path}: ", self.state())
+            self.assertIn(re.sub(r"\.(\d)", r"[\1]", path) + ": ", self.state())
             self.script("await save(); return 0;")
             self.assertIn("Not saved", self.text("told"))
             self.type_at(path, "")
@@ -97,29 +95,27 @@ class PageDraw(draw_test.Draw):
         self.press("Remove layer 1")
         self.type_at("extension.distance_m", "")
         marked = lambda: self.script("await verdictNow(); return [...document.querySelectorAll('#forms .bad > summary > b')].map(b => b.textContent);")
-        self.type_at("stage[0].distance_m", "1000")     # what the whole scene is wrong in has its field
+        self.type_at("stage.0.distance_m", "1000")     # what the whole scene is wrong in has its field
         self.assertEqual(marked(), ["Stage 2"])
-        self.assertRegex(self.script("return $('at_stage[1].distance_m_fault').textContent;"), "is missing; a stage needs distance_m.*or pause_a")
-        self.type_at("stage[1].distance_m", "500")
-        self.type_at("stage[1].pause_a", "3000")
+        self.assertRegex(self.script("return $('at_stage.1.distance_m_fault').textContent;"), "is missing; a stage needs distance_m.*or pause_a")
+        self.type_at("stage.1.distance_m", "500")
+        self.type_at("stage.1.pause_a", "3000")
         self.assertEqual(marked(), ["Stage 2"])
-        self.assertIn("a stage moves or rests", self.script("return $('at_stage[1].pause_a_fault').textContent;"))
-        find = self.driver.find_element("id", "find")
-        for text, found in (("stage[1].pause_a = 0", "out of range (0)"), ("stage[2].pause_a = 3000", "the scene has no such table"),
-                            ("stage[1].pose = 3000", "unknown key, allowed: distance_m, pause_a"), ("pause_a", "2 parameters"), ("old_fault band", "1 parameter")):
-            find.clear()
-            find.send_keys(text)
+        self.assertIn("a stage moves or rests", self.script("return $('at_stage.1.pause_a_fault').textContent;"))
+        for text, found in (("stage.1.pause_a = 0", "out of range (0)"), ("stage.3.pause_a = 3000", "there are 2, counted from 0; the next is stage.2"),
+                            ("stage.1.pose = 3000", "unknown key, allowed: distance_m, pause_a"), ("pause_a", "2 parameters"), ("old_fault band", "1 parameter")):
+            self.type_into_find(text)
             self.assertIn(found, self.text("found"))
-        find.clear()
-        find.send_keys(Keys.ENTER)
-        self.type_at("stage[1].pause_a", "")
+        self.type_into_find("stage.2.pause_a = 3000\n")
+        self.type_at("stage.1.pause_a", "")
         self.assert_good()
+        self.assertEqual(self.scene()["stage"], [{"distance_m": 1000}, {"distance_m": 500}, {"pause_a": 3000}])
 
     def test_05c_files_of_layers_are_dropped_on_the_page(self):
         self.open()
         self.press("Add a layer")
         for key, text in (("name", "salt"), ("thickness_m", "1000"), ("material", "salt"), ("top_csv", "top.csv")):
-            self.type_at(f"layer[0].{key}", text)
+            self.type_at(f"layer.0.{key}", text)
         self.assertIn("top.csv: no such file", self.state())
         self.assertIn('top_csv = "top.csv"', self.what_is_saved()["lis1-drawn.toml"])
         self.assertIn("It needs top.csv beside it", self.text("told"))
