@@ -33,19 +33,29 @@ function kindsInFiles() { return pickKinds.filter(kind => page.state.asked[kind]
 /** What the program is to add to every x of the picks that it reads: a file that nobody has dropped needs it. */
 function shiftOfPicks() { return kindsInFiles().length ? page.state.asked.shift : 0; }
 
+/** Files that layers and old faults name. */
+function filesOfLists() {
+  const all = [...page.forms.lists.keys()].flatMap(name => page.state.scene[name] ?? []);
+  return all.flatMap(one => ["csv", "top_csv", "bottom_csv"].map(key => one[key]).filter(Boolean));
+}
+
 function missingFiles() {
   const {asked, scene} = page.state, table = scene.detachment, names = kindsInFiles().map(kind => asked[kind]);
   if (table?.csv || table?.svg) names.push(table.csv || table.svg);
   if (asked.picture) names.push(asked.picture.name);
-  return names;
+  return [...names, ...filesOfLists().filter(name => !page.given[`/${name}`])];
 }
 
 /** Picks of a CSV file, or the points of a fault and what is fitted to them. Of a fault that is in an SVG, the scene says where. */
 function takePicks(text, name) {
   if (!model) throw new Error(`${name}: to read picks ${lacksModel}`);
-  const {asked, scene} = page.state, isDrawing = /\.svg$/i.test(name);
-  page.given[`/${name}`] = text;
-  model.give(`/${name}`, text);
+  const {asked, scene} = page.state, isDrawing = /\.svg$/i.test(name), ofList = filesOfLists().find(own => own.split("/").at(-1) === name);
+  page.given[`/${ofList ?? name}`] = text;
+  model.give(`/${ofList ?? name}`, text);
+  if (ofList) {
+    showAll();
+    return tell(`${name} is read with the scene, which needs it beside it.`);
+  }
   const isFault = isDrawing || !/^[^#\n]*\bname\b/m.test(text) || scene.detachment?.csv?.endsWith(name);
   if (isFault) return takeFault(name, isDrawing ? {svg: name} : {csv: name});
   const lines = answerOf("lines", {file: `/${name}`, shift_m: asked.shift});

@@ -18,6 +18,9 @@ const shortNumber = x => Math.abs(x) >= 1e6 || x !== 0 && Math.abs(x) < 1e-4 ? x
 
 const first = text => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** "stage" of stage.1.distance_m, "" of seed. */
+const tableNameOf = path => path.includes(".") ? path.split(".")[0] : "";
+
 /** A value as a field shows it. */
 function fieldText(value) { return typeof value === "string" ? value : plainText(value); }
 
@@ -25,12 +28,16 @@ class Forms {
   /** @param change  takes path and value (undefined: the default), to be made and kept
    *  @param toggle  takes a table's name and whether it is there */
   constructor(host, {change, toggle}) {
-    Object.assign(this, {host, change, toggle, fields: new Map(), tables: new Map(), bad: new Map()});
-    const isTable = own => own.type === "object" || own.items?.properties; // [[name]] is edited as text
+    Object.assign(this, {host, change, toggle, fields: new Map(), tables: new Map(), lists: new Map(), bad: new Map()});
+    const isTable = own => own.type === "object" || own.items?.properties;
     const top = Object.keys(schema.properties).filter(key => !isTable(schema.properties[key]));
     this.addTable("", "Scene", "name, accuracy and seed", top, true);
     for (const [name, table] of Object.entries(schema.properties)) {
-      if (table.type !== "object" || drawnElsewhere[name] === null) continue;
+      if (!isTable(table) || drawnElsewhere[name] === null) continue;
+      if (table.items) {
+        this.addList(name, table.items);
+        continue;
+      }
       const keys = Object.keys(table.properties || {}).filter(key => !drawnElsewhere[name]?.includes(key));
       this.addTable(name, name, table.description.replace(/^effect: /, ""), keys, !table.description.startsWith("effect: "));
     }
@@ -50,6 +57,75 @@ class Forms {
     this.tables.set(name, table);
     for (const key of keys) details.append(this.fieldOf(name ? `${name}.${key}` : key));
     this.host.append(table);
+    return details;
+  }
+
+  /** [[name]], of which a scene has as many as it likes. */
+  addList(name, {description, properties}) {
+    const title = name.replace("_", " "), add = element("button", {}, `Add ${/^[aeiou]/.test(title) ? "an" : "a"} ${title}`);
+    const details = this.addTable(name, name, description.replace(/^effect: /, ""), [], true), host = element("div");
+    const list = {title, host, add, keys: Object.keys(properties), items: []};
+    this.lists.set(name, list);
+    details.append(host, add);
+    add.onclick = () => {
+      this.changeList(name, all => all.push({}));
+      list.items.at(-1).details.open = true;
+      list.items.at(-1).details.querySelector("input").focus();
+    };
+  }
+
+  itemOf(name, index) {
+    const {title, keys, add, items} = this.lists.get(name), path = `${name}.${index}`, gist = element("span");
+    const fault = element("p", {className: "fault", role: "alert"}), controls = element("div", {className: "controls"});
+    const button = (word, make) => {
+      const made = element("button", {onclick: () => make(made)}, word);
+      made.setAttribute("aria-label", `${word} ${title} ${index + 1}`);
+      controls.append(made);
+      return made;
+    };
+    const move = by => () => {
+      this.changeList(name, all => all.splice(index + by, 0, ...all.splice(index, 1)));
+      const [here, there] = [items[index], items[index + by]], next = by < 0 ? there.up : there.down;
+      [here.details.open, there.details.open] = [there.details.open, here.details.open];
+      (next.disabled ? there.details.firstChild : next).focus();
+    };
+    const [up, down] = name === "stage" ? [button("Up", move(-1)), button("Down", move(1))] : []; // the order of others means nothing
+    button("Remove", () => {
+      this.changeList(name, all => all.splice(index, 1));
+      add.focus();
+    });
+    const details = element("details", {className: "item"}, element("summary", {}, element("b", {}, `${first(title)} ${index + 1}`), " ", gist),
+      fault, controls, ...keys.map(key => this.fieldOf(`${path}.${key}`)));
+    return {path, details, gist, fault, up, down};
+  }
+
+  /** Makes a list anew; texts that were refused in it are dropped, since they belong to places in it. */
+  changeList(name, make) {
+    const all = [page.state.scene[name] ?? []].flat();
+    make(all);
+    for (const path of this.bad.keys()) if (tableNameOf(path) === name) this.bad.delete(path);
+    this.change(name, all.length ? all : undefined);
+  }
+
+  showLists(scene, faults) {
+    for (const [name, {host, items}] of this.lists) {
+      const all = [scene[name] ?? []].flat();
+      while (items.length > all.length) {
+        const {path, details} = items.pop();
+        for (const own of this.fields.keys()) if (own.startsWith(`${path}.`)) for (const kept of [this.fields, this.bad]) kept.delete(own);
+        details.remove();
+      }
+      while (items.length < all.length) {
+        items.push(this.itemOf(name, items.length));
+        host.append(items.at(-1).details);
+      }
+      items.forEach(({path, details, gist, fault, up, down}, k) => {
+        gist.textContent = Object.entries(all[k]).map(([key, value]) => `${key} = ${plainText(value)}`).join(", ");
+        fault.textContent = faults.find(one => one.path === path)?.message ?? "";
+        details.classList.toggle("bad", faults.some(one => one.path === path || one.path.startsWith(`${path}.`)));
+        if (up) [up.disabled, down.disabled] = [k === 0, k === all.length - 1];
+      });
+    }
   }
 
   fieldOf(path) {
@@ -64,8 +140,13 @@ class Forms {
       element("span", {className: "unit"}, facts.unit || ""), doc, fault);
     input.onchange = () => this.take(path);
     input.oninput = () => this.judge(path);
-    this.fields.set(path, {field, input, fault, own, text: `${path} ${facts.doc} ${facts.symbol || ""}`.toLowerCase()});
+    this.fields.set(path, {field, input, fault, own, text: this.searchedOf(path)});
     return field;
+  }
+
+  searchedOf(path) {
+    const facts = schemaAt(path)["x-listric"] || {};
+    return `${path} ${facts.doc} ${facts.symbol || ""}`.toLowerCase();
   }
 
   isBroad(own, input) { return input.tagName === "TEXTAREA" || own.type === "string" && !own.enum && !own.anyOf; }
@@ -111,18 +192,21 @@ class Forms {
     for (const [name, table] of this.tables) {
       const isOn = name === "" || name in scene, box = table.querySelector(".switch");
       table.classList.toggle("off", !isOn);
-      table.classList.toggle("bad", name !== "" && faults.some(({path}) => path === name || path.startsWith(`${name}.`)));
+      table.classList.toggle("bad", name !== "" && faults.some(({path}) => path.split(".")[0] === name));
       if (box) box.checked = isOn;
     }
+    this.showLists(scene, faults);
     for (const [path, one] of this.fields) {
       if (this.bad.has(path)) continue;
       const value = valueIn(scene, path), {input, own} = one;
       const text = value === undefined ? "" : fieldText(value);
+      const isChoice = input.tagName === "SELECT";
+      if (isChoice && ![...input.options].some(option => option.value === text)) input.append(element("option", {value: text}, text)); // of an older scene
       if (input.value !== text) input.value = text;
       input.readOnly = this.isDrawn(path, scene);
-      const isChoice = input.tagName === "SELECT", usual = isChoice ? own.default : defaultOf(path);
+      const usual = isChoice || this.lists.has(tableNameOf(path)) ? own.default : defaultOf(path);
       const word = usual === undefined ? (own["x-listric"]?.default ?? "").replace(/^""$/, "") : fieldText(usual);
-      if (isChoice) input.options[0].textContent = `${word} (default)`;
+      if (isChoice) input.options[0].textContent = word === "(none)" ? word : `${word} (default)`;
       else input.placeholder = word;
       one.field.classList.toggle("given", value !== undefined);
       const whole = faults.find(fault => fault.path === path);
@@ -137,14 +221,16 @@ class Forms {
     for (const [name, table] of this.tables) {
       let here = 0;
       for (const [path, {field, text}] of this.fields) {
-        if ((path.includes(".") ? path.split(".")[0] : "") !== name) continue;
+        if (tableNameOf(path) !== name) continue;
         const fits = words.every(word => text.includes(word));
         field.hidden = !fits;
         field.style.display = fits ? "" : "none";
         here += fits;
       }
+      const {items = [], keys = []} = this.lists.get(name) || {}; // an empty list has what its items would have
+      if (!items.length) here += keys.filter(key => words.every(word => this.searchedOf(`${name}.0.${key}`).includes(word))).length;
       table.style.display = here ? "" : "none";
-      if (words.length && here) table.querySelector("details").open = true;
+      if (words.length && here) for (const details of table.querySelectorAll("details")) details.open = true;
       count += here;
     }
     return count;

@@ -55,22 +55,24 @@ function plainText(value) {
 /** A document as TOML; without the model, as the page was given it and changed it. */
 function textOf(document) {
   if (model) return model.ask("text", document);
-  const isTable = value => typeof value === "object" && !Array.isArray(value), all = Object.entries(document);
+  const isTable = value => typeof value === "object" && (!Array.isArray(value) || typeof value[0] === "object"), all = Object.entries(document);
   const lines = entries => entries.map(([key, value]) => `${key} = ${plainText(value)}\n`).join("");
   return lines(all.filter(([, value]) => !isTable(value))) +
-    all.filter(([, value]) => isTable(value)).map(([name, table]) => `\n[${name}]\n${lines(Object.entries(table))}`).join("");
+    all.filter(([, value]) => isTable(value)).flatMap(([name, value]) => Array.isArray(value) ? value.map(table => [`[[${name}]]`, table]) : [[`[${name}]`, value]])
+      .map(([head, table]) => `\n${head}\n${lines(Object.entries(table))}`).join("");
 }
 
 /** What a text in the field of a parameter stands for: {value}, {missing}, or {fault}. */
 function valueOf(path, text) {
-  const {type} = schemaAt(path) || {};
+  const {type, items} = schemaAt(path) || {}, opens = items?.type === "array" ? /^\[\s*\[/ : /^\[/;
   text = text.trim();
   if (text === "") return {missing: true};
   if (!["number", "integer", "boolean", "array"].includes(type)) text = JSON.stringify(text);
-  else if (type === "array" && !text.startsWith("[")) text = `[${text}]`;
+  else if (type === "array" && !opens.test(text)) text = `[${text}]`;
   else text = text.replace(/^\+?\./, "0.");
   if (model) return valueByModel(path, text);
-  if (!schemaAt(path)) return {fault: "unknown key"};
+  const [table, item] = path.split(".");
+  if (!schemaAt(path) || Number(item) > (page.state.scene[table]?.length ?? 0)) return {fault: "unknown key"}; // the next item may be new
   try {
     return {value: JSON.parse(text)};
   } catch {
@@ -79,11 +81,11 @@ function valueOf(path, text) {
 }
 
 function valueByModel(path, text) {
-  const scene = "/now.toml", assignment = `${path}=${text}`, ours = `--set ${assignment}: `;
+  const scene = "/now.toml", assignment = `${path}=${text}`, ours = `--set ${assignment}: `, place = placeOf(path);
   model.give(scene, textOf(page.state.scene));
-  const {value, fault} = answerOf("value", {scene, set: [assignment], path});
+  const {value, fault} = answerOf("value", {scene, set: [assignment], path: place});
   if (!fault?.startsWith(ours)) return {value}; // something else is wrong, and was before
-  return {fault: fault.slice(ours.length).replace(`${path}: `, "")};
+  return {fault: fault.slice(ours.length).replace(`${place}: `, "")};
 }
 
 const numberOf = text => text.trim() && Number.isFinite(Number(text)) ? Number(text) : undefined;
@@ -143,7 +145,7 @@ async function verdictNow() {
 
 /** What is wrong: fields whose texts are refused, or else what the program refuses: [{path, message}]. */
 function faultsNow() {
-  const typed = [...page.forms.bad].map(([path, message]) => ({path, message: `${path}: ${message}`}));
-  const {fault} = checker.verdict || {}, path = /(?:^|: )([a-z_]+(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
-  return typed.length || !fault ? typed : [{path, message: fault}];
+  const typed = [...page.forms.bad].map(([path, message]) => ({path, message: `${placeOf(path)}: ${message}`}));
+  const {fault} = checker.verdict || {}, place = /(?:^|: )([a-z_]+(?:\[\d+\])?(?:\.[a-z_]+)?)(?:\[[^:]*)?: /.exec(fault)?.[1] ?? "";
+  return typed.length || !fault ? typed : [{path: place.replace(/\[(\d+)\]/, ".$1"), message: fault}];
 }

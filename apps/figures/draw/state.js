@@ -13,10 +13,13 @@ const page = {
 const copyState = state => structuredClone(state);
 const shapeNow = () => shapeOf(page.state.scene.detachment);
 
-/** The schema of a value at a path of table and key; undefined: there is none. */
-function schemaAt(path) { return path.split(".").reduce((at, key) => at?.properties?.[key], schema); }
+/** The schema of a value at a path of table and key, as --set has it: stage.1.distance_m; undefined: there is none. */
+function schemaAt(path) { return path.split(".").reduce((at, key) => at?.items && /^\d+$/.test(key) ? at.items : at?.properties?.[key], schema); }
 
 const valueIn = (document, path) => path.split(".").reduce((at, key) => at?.[key], document);
+
+/** A path as messages have it: stage[1].distance_m. */
+const placeOf = path => path.replace(/\.(\d+)/, "[$1]");
 
 /** What a parameter is in force with where the scene does not give it. */
 function defaultOf(path) { return valueIn(page.now.in_force, path) ?? schemaAt(path)?.default; }
@@ -61,7 +64,7 @@ function travel(from, to) {
 }
 
 function setAt({scene}, path, value) {
-  const [table, key] = path.includes(".") ? path.split(".") : [null, path], inside = table ? scene[table] ??= {} : scene;
+  const keys = path.split("."), key = keys.pop(), inside = keys.reduce((at, one) => at[one] ??= schema.properties[one]?.items ? [] : {}, scene);
   if (value === undefined) delete inside[key];
   else inside[key] = value;
 }

@@ -7,6 +7,7 @@ calls it.
 import json
 import math
 import os
+import re
 import shutil
 import tomllib
 import unittest
@@ -60,30 +61,72 @@ class PageDraw(draw_test.Draw):
         for path, typed, why in (("detachment.friction", "11", "at least 0, at most 10"), ("hanging_wall.porosity", "0,2", "wrong type .*decimal comma; write 0.2"),
                                  ("materials.basement", "mat18-c", "did you mean mat18-b?"), ("seed", "1.5", "integer"),
                                  ("output.figures_at_m", "5000, x", "wrong type")):
-            field = self.driver.find_element("id", f"at_{path}")
-            self.script("for (let e = document.getElementById(a[0]); e; e = e.parentElement) if (e.tagName === 'DETAILS') e.open = true;"
-                        "return 0;", f"at_{path}")
-            field.clear()
-            field.send_keys(typed, Keys.TAB)
-            self.assertRegex(self.driver.find_element("id", f"at_{path}_fault").text, why)
+            self.assertRegex(self.type_at(path, typed), why)
             self.assertIn(path, self.state())
             for old in self.downloads.glob("*"):
                 old.unlink()
             self.script("await save(); return 0;")
             self.assertIn("Not saved", self.text("told"))
             self.assertEqual(list(self.downloads.glob("*")), [])
-            field.clear()
-            field.send_keys(Keys.TAB)
+            self.type_at(path, "")
         self.assert_good()
-        find = self.driver.find_element("id", "find")
         for typed, why in (("extension.rate = 0.02", "did you mean rate_m_per_a?"), ("porosty", "did you mean hanging_wall.porosity"),
                            ("detachment.friction = -1", "at least 0")):
-            find.clear()
-            find.send_keys(typed)
+            self.type_into_find(typed)
             self.assertIn(why, self.text("found"))
-        find.clear()
-        find.send_keys("extension.rate_m_per_a = 0.02\n")
+        self.type_into_find("extension.rate_m_per_a = 0.02\n")
         self.assertEqual(self.scene()["extension"]["rate_m_per_a"], 0.02)
+
+    def test_05b_forms_of_lists_refuse_and_say_why(self):
+        self.open()
+        for name in ("stage", "layer", "old fault"):
+            self.press(f"Add a{'n' * (name[0] == 'o')} {name}")
+        self.press("Add a stage")
+        for path, typed, why in (("stage.1.distance_m", "5e7", r"^out of range \(5e7\), allowed: at least -1e6"),
+                                 ("stage.1.distance_m", "0,2", "^wrong type .*decimal comma; write 0.2"), ("stage.0.pause_a", "long", '^wrong type .string "long"'),
+                                 ("old_fault.0.points", "[1, 2], [3]", r"^old_fault\[0\].points\[1\]: needs two numbers"),
+                                 ("layer.0.friction", "-1", "^out of range"), ("layer.0.top", "deep", "^wrong type|needs")):
+            self.assertRegex(self.type_at(path, typed), why)
+            self.assertIn(re.sub(r"\.(\d)", r"[\1]", path) + ": ", self.state())
+            self.script("await save(); return 0;")
+            self.assertIn("Not saved", self.text("told"))
+            self.type_at(path, "")
+        self.press("Remove old fault 1")
+        self.press("Remove layer 1")
+        self.type_at("extension.distance_m", "")
+        marked = lambda: self.script("await verdictNow(); return [...document.querySelectorAll('#forms .bad > summary > b')].map(b => b.textContent);")
+        self.type_at("stage.0.distance_m", "1000")     # what the whole scene is wrong in has its field
+        self.assertEqual(marked(), ["Stage 2"])
+        self.assertRegex(self.script("return $('at_stage.1.distance_m_fault').textContent;"), "is missing; a stage needs distance_m.*or pause_a")
+        self.type_at("stage.1.distance_m", "500")
+        self.type_at("stage.1.pause_a", "3000")
+        self.assertEqual(marked(), ["Stage 2"])
+        self.assertIn("a stage moves or rests", self.script("return $('at_stage.1.pause_a_fault').textContent;"))
+        for text, found in (("stage.1.pause_a = 0", "out of range (0)"), ("stage.3.pause_a = 3000", "there are 2, counted from 0; the next is stage.2"),
+                            ("stage.1.pose = 3000", "unknown key, allowed: distance_m, pause_a"), ("pause_a", "2 parameters"), ("old_fault band", "1 parameter")):
+            self.type_into_find(text)
+            self.assertIn(found, self.text("found"))
+        self.type_into_find("stage.2.pause_a = 3000\n")
+        self.type_at("stage.1.pause_a", "")
+        self.assert_good()
+        self.assertEqual(self.scene()["stage"], [{"distance_m": 1000}, {"distance_m": 500}, {"pause_a": 3000}])
+
+    def test_05c_files_of_layers_are_dropped_on_the_page(self):
+        self.open()
+        self.press("Add a layer")
+        for key, text in (("name", "salt"), ("thickness_m", "1000"), ("material", "salt"), ("top_csv", "top.csv")):
+            self.type_at(f"layer.0.{key}", text)
+        self.assertIn("top.csv: no such file", self.state())
+        self.assertIn('top_csv = "top.csv"', self.what_is_saved()["lis1-drawn.toml"])
+        self.assertIn("It needs top.csv beside it", self.text("told"))
+        top = self.folder / "top.csv"
+        top.write_text("x_m,depth_m\n0,4000\n40000,5000\n")
+        self.read_into_page(top)
+        self.assertIn("top.csv is read with the scene", self.text("told"))
+        self.assert_good()
+        top.write_text("x_m,depth_m\n0,deep\n")
+        self.read_into_page(top)
+        self.assertIn("top.csv:2", self.state())
 
     def test_06_shipped_scenes_come_back_equal(self):
         self.open()
@@ -92,7 +135,7 @@ class PageDraw(draw_test.Draw):
             written = self.script("model.give('/s.toml', a[0]); return model.ask('text', model.ask('document', {scene: '/s.toml'}));", text)
             self.assertEqual(tomllib.loads(written), tomllib.loads(text), path.name)
             self.assertEqual(str(tomllib.loads(written)["hanging_wall"]), str(tomllib.loads(text)["hanging_wall"]))  # 1.0 is no 1
-        for name in ("rfr.toml", "pure-shear.toml", "lis1-mud.toml"):     # by the page's own way in and out
+        for name in ("rfr.toml", "pure-shear.toml", "lis1-mud.toml", "salt-cover.toml", "em139.toml"):     # by the page's own way in and out
             self.read_into_page(SOURCES / "apps/scenes" / name)
             self.assert_good()
             [file] = self.saved()
