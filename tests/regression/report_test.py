@@ -347,7 +347,7 @@ class Report(Browsed):
         self.assertEqual(self.script("return document.querySelector('main').firstElementChild.id;"), "quality_part")
         cards = {card.get_attribute("data-key"): card for card in self.driver.find_elements("class name", "check")}
         self.assertEqual(list(cards), [key for key in ("quasi_static", "mass_error_fraction", "volume_error_fraction",
-                                       "area_balance", "still_ground_m", "width_diameters",
+                                       "area_balance", "still_ground_m", "flat_mobilised_friction", "width_diameters",
                                        "sediment_stress_ratio") if key in cards])
         self.assertGreater(len(cards), 4)
         summary = json.loads((self.run_folder / "summary.json").read_text())
