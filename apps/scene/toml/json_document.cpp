@@ -1,5 +1,6 @@
 #include "apps/scene/toml/json_document.hpp"
 
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/scene/toml/tables.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ std::string inline_text(const Json& value, bool as_integer) {
     if (value.is_string())
         return quoted(value);
     if (value.is_number_integer() && as_integer)
-        return value.dump();
+        return to_text(value);
     if (value.is_number())
         return toml_float(value.get<double>());
     if (!value.is_structured())
