@@ -14,6 +14,7 @@
 #include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "dem/columns.hpp"
+#include "dem/contacts/power_cell.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -195,11 +196,11 @@ LISTRIC_EXPORT(discs) const float* page_discs() {
     for (const auto& column : {dem::columns::total_strain, dem::columns::total_tectonic_strain})
         if (state.discs.has(column.name)) // tectonic strain, where that is known
             strain = state.discs.get(column);
+    const std::vector<double> radius = dem::rock_radii(state); // weakened discs are enlarged
     discs.clear();
     for (std::size_t i = 0; i < of.x.size(); ++i)
-        for (const double value :
-             {of.x[i], of.y[i], of.radius[i], static_cast<double>(of.stratum[i]),
-              strain.empty() ? 0.0 : strain[i], -start_y[i]})
+        for (const double value : {of.x[i], of.y[i], radius[i], static_cast<double>(of.stratum[i]),
+                                   strain.empty() ? 0.0 : strain[i], -start_y[i]})
             discs.push_back(static_cast<float>(value));
     return discs.data();
 }

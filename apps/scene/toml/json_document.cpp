@@ -131,8 +131,9 @@ std::string toml_text(const Json& document, EffectList effects) {
         const bool is_known = own != all.end();
         tables += is_known ? fmt::format("\n# {}", own->doc) : "";
         const std::string key = key_text(name);
+        const std::string heading = value.is_object() ? "\n[" + key + "]\n" : "\n[[" + key + "]]\n";
         const auto add = [&](const Json& table) {
-            tables += value.is_object() ? "\n[" + key + "]\n" : "\n[[" + key + "]]\n";
+            tables += heading;
             for (const auto& [inner, item] : table.items())
                 tables +=
                     entry_text(inner, item, is_known ? own->parameters : std::vector<Parameter>());
