@@ -40,9 +40,7 @@ Json prediction_json(const Scene& scene) {
 Json levels_json(const Scene& scene) {
     Json levels = Json::array();
     for (const AccuracyLevel& level : accuracy_levels()) {
-        Scene other = scene;
-        if (level.name != scene.accuracy)
-            set_level(other, level);
+        const Scene other = level.name == scene.accuracy ? scene : at_level(scene, level);
         levels.push_back({{"name", level.name},
                           {"radius_m", other.hanging_wall.mean_radius},
                           {"prediction", prediction_json(other)}});
