@@ -101,9 +101,9 @@ std::vector<double> flank_depths(const SurfaceResponse& response, std::span<cons
 }
 
 BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
-                       double gravity, double column_width, double extension_rate,
+                       double gravity, double column_width, const Calendar& calendar,
                        const std::optional<PoreSpace>& pores, std::optional<Flank> flank)
-    : Event("basin_water", {parameters.interval, extension_rate}, dem::Stage::load),
+    : Event("basin_water", {parameters.interval, calendar}, dem::Stage::load),
       parameters_(parameters), pores_(pores), flank_(std::move(flank)), gravity_(gravity),
       column_width_(column_width), nodes_(interface.x.size()) {
     memory.add<double>("start_depth_m", "", 0.0);
@@ -195,14 +195,14 @@ Flank make_flank(const std::vector<double>& knots, const LoadSolution& solution)
 } // namespace
 
 FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
-                              double column_width, double extension_rate,
+                              double column_width, const Calendar& calendar,
                               const std::optional<PoreSpace>& pores,
                               std::optional<double> flank_left) {
     const std::vector<double> knots =
         flank_left ? surface_knots(-*flank_left, *flank_left) : std::vector<double>{};
     const auto make_event = [=](const LoadSolution& solution) {
         auto event = std::make_unique<BasinWater>(
-            solution.base.interface(), parameters, gravity, column_width, extension_rate, pores,
+            solution.base.interface(), parameters, gravity, column_width, calendar, pores,
             flank_left ? std::optional(make_flank(knots, solution)) : std::nullopt);
         const BasinWater& water = *event;
         LoadingEvent effect{.event = std::move(event), .measures = [&water](const State& state) {

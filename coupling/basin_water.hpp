@@ -75,7 +75,7 @@ std::vector<double> flank_depths(const SurfaceResponse& response, std::span<cons
 class BasinWater : public dem::Event {
 public:
     BasinWater(const Interface& interface, const BasinWaterParameters& parameters, double gravity,
-               double column_width, double extension_rate,
+               double column_width, const dem::Calendar& calendar,
                const std::optional<PoreSpace>& pores = {}, std::optional<Flank> flank = {});
 
     void begin(dem::State& state) override;
@@ -100,7 +100,7 @@ private:
 /// @param pores       of the sediment, if there is any
 /// @param flank_left  side of the footwall whose flank takes water, m; none: the flank stays dry
 FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
-                              double column_width, double extension_rate,
+                              double column_width, const dem::Calendar& calendar,
                               const std::optional<PoreSpace>& pores,
                               std::optional<double> flank_left);
 

@@ -133,8 +133,8 @@ int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParamet
 
 FootwallErosion::FootwallErosion(SurfaceResponse response, std::vector<double> forces,
                                  Uplift uplift, const FootwallErosionParameters& parameters,
-                                 double gravity, double extension_rate)
-    : Event("footwall_erosion", {parameters.interval, extension_rate}, dem::Stage::load),
+                                 double gravity, const Calendar& calendar)
+    : Event("footwall_erosion", {parameters.interval, calendar}, dem::Stage::load),
       response_(std::move(response)), forces_(std::move(forces)), uplift_(std::move(uplift)),
       parameters_(parameters), target_(parameters.level, parameters.target), gravity_(gravity) {
     memory.resize(response_.x.size());
@@ -173,7 +173,7 @@ double FootwallErosion::cover(double x) const {
 
 bool FootwallErosion::apply(State& state, const RigidBase&) {
     const FootwallCover cover{memory.get<double>("eroded"), memory.get<double>("deposited")};
-    const TargetLine line = target_.at(state.clock.travel.m / schedule().extension_rate);
+    const TargetLine line = target_.at(schedule().calendar().age(state.clock.travel));
     std::vector<double> heights;
     for (double x : response_.x)
         heights.push_back(line.height(x));
@@ -184,13 +184,13 @@ bool FootwallErosion::apply(State& state, const RigidBase&) {
 }
 
 FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, double gravity,
-                                   double left, double extension_rate) {
+                                   double left, const Calendar& calendar) {
     const std::vector<double> knots = surface_knots(parameters.width, left);
     const auto make_event = [=](const LoadSolution& solution) {
         const SurfaceResponse surface(knots, solution.interface, solution.sums, solution.work);
         auto event = std::make_unique<FootwallErosion>(surface, solution.forces,
                                                        surface_uplift(surface, solution),
-                                                       parameters, gravity, extension_rate);
+                                                       parameters, gravity, calendar);
         const FootwallErosion& erosion = *event;
         return LoadingEvent{.event = std::move(event),
                             .amounts = [&erosion](const State&) { return erosion.pressure(); },

@@ -99,7 +99,7 @@ public:
     /// @param forces  equivalent to the response's interface displacements, by rows, N/Pa
     FootwallErosion(SurfaceResponse response, std::vector<double> forces, Uplift uplift,
                     const FootwallErosionParameters& parameters, double gravity,
-                    double extension_rate);
+                    const dem::Calendar& calendar);
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
@@ -124,6 +124,6 @@ private:
 
 /// @param left  side of the footwall, m
 FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, double gravity,
-                                   double left, double extension_rate);
+                                   double left, const dem::Calendar& calendar);
 
 } // namespace listric::coupling

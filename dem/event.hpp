@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/calendar.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -16,28 +17,56 @@
 
 namespace listric::dem {
 
+/// How often something is applied in a step of a pause.
+enum class InSteps {
+    as_travel_asks, ///< once, or in as many halves of halves as keep its spacing: so what follows
+                    ///< the discs' motion does, and of two such the rarer coincides with the other
+    once
+};
+
 /// Geological time between applications, and the travel that it stands for: metres without
-/// round-off, so that intervals of as many metres at different rates have equal bits.
+/// round-off, so that intervals of as many metres at different rates have equal bits. In pauses
+/// that go by steps applications divide the steps, and each stands for the years since the last.
 class Schedule {
 public:
-    double interval;       ///< a
-    double extension_rate; ///< m/a
+    double interval; ///< a, but in steps
 
-    Schedule(double years, double metres_per_year);
+    Schedule(double years, Calendar calendar, InSteps in_steps = InSteps::as_travel_asks);
 
-    /// Once per this length of travel, at any rate.
-    static Schedule every(double metres, double metres_per_year) {
-        return {metres / metres_per_year, metres_per_year};
+    /// Once per this length of travel, whatever years that is.
+    static Schedule every(double metres, const Calendar& calendar) {
+        return {metres / calendar.rate(), Calendar(calendar.rate())};
     }
 
-    double spacing() const { return spacing_; } ///< m of travel
-    double seconds() const;                     ///< s of geological time
+    const Calendar& calendar() const { return calendar_; }
+    double spacing() const { return spacing_; } ///< m of travel, but in steps
 
-    /// Strain that a rate, 1/s, makes between applications, without round-off.
+    /// When it is applied for the nth time, counted from 1.
+    Travel due(std::int64_t n) const;
+
+    /// The application that is due nearest to a travel.
+    std::int64_t nearest(Travel travel) const;
+
+    // From the application before the nth to that:
+    Travel gap(std::int64_t n) const;
+    double years(std::int64_t n) const;
+    double seconds(std::int64_t n) const; ///< of geological time
+    /// Strain that a rate, 1/s, makes, without round-off.
+    double strain(double rate, std::int64_t n) const;
+
+    /// Strain that a rate, 1/s, makes in the interval, without round-off.
     double strain(double rate) const;
 
 private:
+    /// Applications at equal distances.
+    struct Row {
+        Travel start, gap;
+        std::int64_t before; ///< applications up to the start
+    };
+
+    Calendar calendar_;
     double spacing_;
+    std::vector<Row> rows_; ///< between pauses and in them, in turn; empty: one row for all
 };
 
 inline const Schedule never{std::numeric_limits<double>::infinity(), 1.0};
@@ -75,9 +104,7 @@ public:
 
     /// When it is to be applied next: ascending with `applied`, and of nothing else that changes.
     /// Once in the schedule's spacing, unless an event says otherwise.
-    virtual Travel next_due() const {
-        return Travel(static_cast<double>(applied + 1) * schedule_.spacing());
-    }
+    virtual Travel next_due() const { return schedule_.due(applied + 1); }
 
     /// Adds the event's columns to a state in which extension has not begun.
     virtual void begin(State&) {}

@@ -70,8 +70,8 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 }
 
 PoreFluid::PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
-                     double extension_rate)
-    : Event("pore_fluid", {fluid.interval, extension_rate}), fluid_(fluid), sediment_(sediment),
+                     const dem::Calendar& calendar)
+    : Event("pore_fluid", {fluid.interval, calendar}), fluid_(fluid), sediment_(sediment),
       law_(pore_law(fluid, sediment, gravity)), fluid_weight_(fluid.density * gravity) {
     for (const char* name : {Sums::came, Sums::surface, Sums::vented, Sums::eroded, Sums::left})
         memory.add<double>(name, "m^2", 0.0);
@@ -143,7 +143,8 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults, beds);
     std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
     std::vector<double> water = gathered(state, columns::pore_water, cells);
-    const FlowOutcome outcome = flow(network, storage, bounds, schedule().seconds(), water, u);
+    const FlowOutcome outcome =
+        flow(network, storage, bounds, schedule().seconds(applied + 1), water, u);
     if (outcome.stuck)
         refuse(state, cells, *outcome.stuck, u[*outcome.stuck], bounds.highest[*outcome.stuck]);
     std::vector<double> ratio;
@@ -186,10 +187,10 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
 /// the water that it has loaded would lift what it does not yet hold down. Where the stratum comes
 /// at this very moment, its discs press.
 double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
-    const double due = static_cast<double>(applied + 1) * schedule().spacing();
+    const Travel due = next_due();
+    const Travel stratum = sediment_.deposition.due(sediment_.deposition.nearest(due));
     constexpr double almost = 1e-6; // of the time between solutions: round-off
-    if (std::abs(std::remainder(due, sediment_.deposition.spacing())) <=
-        almost * schedule().spacing())
+    if (std::abs((due - stratum).m) <= almost * schedule().gap(applied + 1).m)
         return 0.0;
     return (1.0 - law_.surface_porosity) * law_.grain_weight * std::max(0.0, cells.pending[cell]) *
            cells.surface_lengths[cell];

@@ -51,7 +51,7 @@ class PoreFluid : public dem::Event {
 public:
     /// @param gravity  of planet, not of discs in water, m/s^2
     PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
-              double extension_rate);
+              const dem::Calendar& calendar);
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;

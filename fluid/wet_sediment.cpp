@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace listric::fluid {
 
@@ -12,18 +13,19 @@ namespace {
 /// Work at the surface of the interval between two strata that holds a travel, or ends at it.
 SurfaceWork work_at(const Motion& motion, const Schedule& deposition, Travel travel) {
     constexpr double almost = 1e-2; // of an interval: a moment is a cycle early or late
-    const Travel spacing(deposition.spacing());
-    if (!std::isfinite(spacing.m))
+    if (!std::isfinite(deposition.spacing()))
         return SurfaceWork::none;
-    const Travel end = std::ceil(travel / spacing - almost) * spacing;
-    return motion.surface_work(end - spacing, end);
+    std::int64_t stratum = deposition.nearest(travel);
+    if (travel - deposition.due(stratum) > almost * deposition.gap(stratum + 1))
+        ++stratum;
+    return motion.surface_work(deposition.due(stratum - 1), deposition.due(stratum));
 }
 
 } // namespace
 
 WetGround::WetGround(const State& state, const Motion& motion, const WetSediment& sediment)
     : ground_(state),
-      line_(sediment.surface.at(state.clock.travel.m / sediment.deposition.extension_rate)),
+      line_(sediment.surface.at(sediment.deposition.calendar().age(state.clock.travel))),
       work_(work_at(motion, sediment.deposition, state.clock.travel)),
       left_free_(left_free * state.mean_radius), fresh_solid_(1.0 - sediment.surface_porosity) {}
 

@@ -6,6 +6,7 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage_steps.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
@@ -242,6 +243,22 @@ void add_rest(std::vector<QualityCheck>& all, const JsonObject& summary) {
                    good ? "rest in pauses" : "no rest in pauses"});
 }
 
+void add_steps(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    using namespace effects::stage;
+    const auto unsettled = number_at(summary, unsettled_steps), steps = number_at(summary, "steps");
+    if (!unsettled || !steps || *steps == 0.0)
+        return;
+    const bool good = *unsettled == 0.0;
+    all.push_back({unsettled_steps, "Rest of a pause's steps",
+                   fmt::format("{:.0f} of {:.0f} steps without rest", *unsettled, *steps), "0",
+                   verdict_of(good),
+                   good ? "Discs and base come to rest in every step."
+                        : "Discs or base still move when the next step comes (step_unrest_m): what "
+                          "they show lags behind; raise settle_m, or lower speed_m_per_s of the "
+                          "pause.",
+                   fmt::format("{:.0f} of {:.0f} steps without rest", *unsettled, *steps)});
+}
+
 } // namespace
 
 std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context) {
@@ -257,6 +274,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     add_discs_per_fault(all, summary, context);
     add_sediment(all, summary);
     add_rest(all, summary);
+    add_steps(all, summary);
     return all;
 }
 

@@ -95,9 +95,9 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
                        "  {}, one every {} m\n\n",
                        fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall.mean_radius,
-                       way, extension.rate, extension.distance / extension.rate / 1e6, p.time_step,
-                       stiffest(scene), p.cycles / 1e6, extension.speed, explain_softness(scene, p),
-                       p.disc_steps, p.memory / 1e6, output_text(p), scene.output.interval);
+                       way, extension.rate, end_age(scene) / 1e6, p.time_step, stiffest(scene),
+                       p.cycles / 1e6, extension.speed, explain_softness(scene, p), p.disc_steps,
+                       p.memory / 1e6, output_text(p), scene.output.interval);
 }
 
 /// What moves with the right wall, and what resists it.

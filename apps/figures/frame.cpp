@@ -190,7 +190,7 @@ void write_horizons(const FrameWriter& writer, const std::string& name,
 void write_tops(const FrameWriter& writer, const Observation& now) {
     const TargetLine regional = effects::stage::regional_of(
         now.parts.base.motion, now.parts.sediment ? now.parts.sediment->surface : Target(0.0),
-        now.scene.extension.rate);
+        make_calendar(now.scene));
     std::vector<double> rows;
     double number = 0.0;
     for (const Horizon& h : trace_horizons(archive::make_setting(now.scene, now.parts),
@@ -230,21 +230,24 @@ double rate_of_motion(const Observation& now) {
     const dem::Motion& motion = now.parts.base.motion;
     const double slope =
         motion.stages.empty() ? 1.0 : motion.stages[motion.stage(now.state.clock.travel)].slope;
-    return now.scene.extension.rate * (slope == 0.0 ? 1.0 : std::abs(slope));
+    return make_calendar(now.scene).metres_per_year(now.state.clock.travel) *
+           (slope == 0.0 ? 1.0 : std::abs(slope));
 }
 
 nlohmann::json frame_json(const Observation& now, const Measures& m) {
     const Scene& scene = now.scene;
     const State& state = now.state;
     const ConstDiscColumns d = disc_columns(state);
+    const Calendar calendar = make_calendar(scene);
     nlohmann::json frame = {
         {"scene", scene.name},
         {"title", scene.description},
         {"extension_m", state.clock.extension.m},
-        {"time_a", state.clock.travel.m / scene.extension.rate},
-        {"end_a", scene.extension.distance / scene.extension.rate},
+        {"time_a", calendar.age(state.clock.travel)},
+        {"end_a", end_age(scene)},
         {"interval_a", scene.output.interval / scene.extension.rate},
         {"rate_m_per_a", rate_of_motion(now)},
+        {"extension_rate_m_per_a", scene.extension.rate},
         {"mean_radius_m", state.mean_radius},
         {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
@@ -260,7 +263,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     std::map<int, double> laid_down; // strata by their numbers, if none is gone, a
     for (std::size_t i = 0; i < d.stratum.size(); ++i)
         if (d.stratum[i] > 0)
-            laid_down[d.stratum[i]] = d.start_travel[i] / scene.extension.rate;
+            laid_down[d.stratum[i]] = calendar.age(Travel(d.start_travel[i]));
     if (!laid_down.empty() && laid_down.rbegin()->first == static_cast<int>(laid_down.size()))
         for (const auto& [stratum, age] : laid_down)
             frame["strata_a"].push_back(age);
@@ -270,7 +273,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         frame["way_m"] = state.clock.travel.m;
     if (now.parts.sediment)
         frame["level_m"] =
-            now.parts.sediment->surface.at(state.clock.travel.m / scene.extension.rate).height(0.0);
+            now.parts.sediment->surface.at(calendar.age(state.clock.travel)).height(0.0);
     // The stage behind it counts: the next one begins where a snapshot is of the end of one.
     const Travel travel = state.clock.travel;
     frame["surface_rests"] =
@@ -324,7 +327,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     }
     if (const auto& sediment = now.parts.sediment) {
         const TargetLine line =
-            sediment->surface.at(now.state.clock.travel.m / now.scene.extension.rate);
+            sediment->surface.at(make_calendar(now.scene).age(now.state.clock.travel));
         if (line.points().size() > 1)
             writer.points("target_line", line.points());
     }

@@ -396,7 +396,7 @@ void ReportMoments::add(const Observation& now, const SectionLines& lines) {
         moments_.push_back(
             {fmt::format("\"extension_m\":{},{}\"time_a\":{},\"discs\":{},"
                          "\"ends\":{},\"streams\":{{{}}}",
-                         clock.extension.m, travel, clock.travel.m / now.scene.extension.rate,
+                         clock.extension.m, travel, make_calendar(now.scene).age(clock.travel),
                          now.state.discs.rows(), to_text(nlohmann::json(ends)),
                          fmt::join(packed, ",")),
              ""});

@@ -82,6 +82,20 @@ json differences_of(const Scene& first, const Scene& second, EffectList effects)
 }
 
 /// All of a run but its moments.
+/// Corners of age over travel, m and a, up to the end.
+json ages_of(const Scene& scene) {
+    const dem::Calendar calendar = make_calendar(scene);
+    json ages{{0.0, 0.0}};
+    const auto add = [&](dem::Travel travel) { ages.push_back({travel.m, calendar.age(travel)}); };
+    for (const dem::SteppedPause& pause : calendar.pauses())
+        for (const dem::Travel travel : {pause.start, pause.end()})
+            if (travel.m > 0.0)
+                add(travel);
+    const dem::Travel last(ages.back()[0].get<double>());
+    add(std::max(dem::Travel(scene.extension.distance), last + dem::Travel(1.0)));
+    return ages;
+}
+
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
     json head{{"scene", scene.name},
@@ -94,7 +108,7 @@ json head_of(const ReportPage::Run& run) {
               {"length_m", scene.hanging_wall.length},
               {"thickness_m", scene.hanging_wall.thickness},
               {"extension_m", greatest_extension(scene)},
-              {"rate_m_per_a", scene.extension.rate},
+              {"ages", ages_of(scene)},
               {"mean_radius_m", run.mean_radius},
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},

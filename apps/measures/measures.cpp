@@ -87,7 +87,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
         return;
     if (setting.has_bonds) {
         const TargetLine surface =
-            setting.sediment->target.at(state.clock.travel.m / setting.extension_rate);
+            setting.sediment->target.at(setting.calendar.age(state.clock.travel));
         const double age = old_sediment_age + travel_of_cycle(setting.motion, state.clock).m;
         m.old_sediment_bonded_fraction =
             bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);

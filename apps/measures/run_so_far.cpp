@@ -37,16 +37,18 @@ RunSoFar::RunSoFar(const Setting& the_setting, const RigidBase& the_base, const 
       travel(state.clock.travel), extension(state.clock.extension),
       cycle(the_base.motion.greatest_wall_speed() * state.clock.time_step) {
     if (!past.empty())
-        last_window =
-            shear_field(past.back().places, places, setting.youngest_sediment, base.motion);
+        last_window = shear_field(past.back().places, places,
+                                  setting.way_of_loose_sediment(places.travel), base.motion);
 }
 
 ShearField RunSoFar::window(std::size_t k) const {
     assert(k < past.size());
-    return k + 1 < past.size() ? only_present(shear_field(past[k].places, past[k + 1].places,
-                                                          setting.youngest_sediment, base.motion),
-                                              places)
-                               : last_window;
+    return k + 1 < past.size()
+               ? only_present(shear_field(past[k].places, past[k + 1].places,
+                                          setting.way_of_loose_sediment(past[k + 1].places.travel),
+                                          base.motion),
+                              places)
+               : last_window;
 }
 
 const DiscPlaces& RunSoFar::end_of_window(std::size_t k) const {

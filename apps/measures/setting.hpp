@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/calendar.hpp"
 #include "dem/clocks.hpp"
 #include "dem/motion.hpp"
 
@@ -26,16 +27,17 @@ struct LayerBoundary {
 
 /// Facts of a run that measures need beside its states.
 struct Setting {
-    double length = 0.0;          ///< of the hanging wall at the start, m
-    double thickness = 0.0;       ///< of the hanging wall, m
-    bool has_detachment = false;  ///< else the hanging wall is a box that stretches
-    bool has_bonds = false;       ///< contacts of rock can be bonded
-    double gravity = 0.0;         ///< m/s^2; 0: none
-    double extension_rate = 0.01; ///< geological, m/a
+    double length = 0.0;         ///< of the hanging wall at the start, m
+    double thickness = 0.0;      ///< of the hanging wall, m
+    bool has_detachment = false; ///< else the hanging wall is a box that stretches
+    bool has_bonds = false;      ///< contacts of rock can be bonded
+    double gravity = 0.0;        ///< m/s^2; 0: none
+    dem::Calendar calendar = 0.01;
     double extension_speed = 1.0; ///< in the model, m/s
     double output_interval = 0.0; ///< travel between states that are kept, m
     dem::Motion motion = {};      ///< of the wall
-    /// Sediment younger than this is too loose for a fault: it creeps all over.
+    /// Sediment younger than this is too loose for a fault: it creeps all over. Of travel at the
+    /// rate of extension.
     dem::Travel youngest_sediment = {};
     /// Diameter of the circle that fault detection (AFD) measures with, mean disc diameters; none:
     /// faults are not looked for and do not weaken.
@@ -43,6 +45,13 @@ struct Setting {
     std::optional<Sediment> sediment = {}; ///< none: nothing is deposited
     /// Tops and bottoms of layers of rock before extension, from the highest down.
     std::vector<LayerBoundary> boundaries = {};
+
+    /// Travel in which what is too loose at a moment was laid down.
+    dem::Travel way_of_loose_sediment(dem::Travel now) const {
+        return calendar.pauses().empty()
+                   ? youngest_sediment
+                   : calendar.way_back(now, youngest_sediment.m / calendar.rate());
+    }
 
     /// Whether strain between states is of a whole window, by the wall's way between them: an extra
     /// state of a run that was stopped is too near to the one before, and one of a pause adds none.

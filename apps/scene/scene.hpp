@@ -2,6 +2,7 @@
 
 #include "apps/scene/picks/observed.hpp"
 #include "apps/scene/picks/picked_fault.hpp"
+#include "dem/calendar.hpp"
 #include "dem/genesis/detachment.hpp"
 #include "dem/genesis/genesis.hpp"
 #include "dem/material.hpp"
@@ -107,6 +108,12 @@ Scene at_level(const Scene& scene, const AccuracyLevel& level);
 
 /// Whether a scene wants pictures at this extension (m), to half a window.
 bool is_drawn_at(const Scene& scene, double extension);
+
+/// Age over travel: all that a scene does or tells by years goes by it.
+dem::Calendar make_calendar(const Scene& scene);
+
+/// Years of a scene from start to end.
+double end_age(const Scene& scene);
 
 /// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);

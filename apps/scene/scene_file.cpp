@@ -409,14 +409,14 @@ std::vector<std::string> warnings_of_never(const Scene& scene) {
             if (part.effect->items || !place || !parameter.key.ends_with("interval_a"))
                 continue;
             const double interval = place->get(part.effect->address.get(part.parameters));
-            const double spacing = Schedule(interval, extension.rate).spacing();
+            const double spacing = Schedule(interval, make_calendar(scene)).due(1).m;
             if (spacing <= extension.distance)
                 continue;
             warnings.push_back(fmt::format(
                 "{}.{} = {:g} is longer than the scene: the first time would be at {:g} m, it "
                 "ends at {:g} m; below {:g} it happens",
                 part.effect->name, parameter.key, interval, spacing, extension.distance,
-                extension.distance / extension.rate));
+                end_age(scene)));
         }
     return warnings;
 }

@@ -24,8 +24,10 @@ std::vector<Point> detachment_nodes(const Chain& chain, double face) {
     return nodes;
 }
 
-BaseMotion::BaseMotion(const BaseMotionParameters& parameters, const Motion& motion, double rate)
-    : uplift_(0.0, parameters.uplift), shift_(0.0, parameters.shift), motion_(motion), rate_(rate) {
+BaseMotion::BaseMotion(const BaseMotionParameters& parameters, const Motion& motion,
+                       const Calendar& calendar)
+    : uplift_(0.0, parameters.uplift), shift_(0.0, parameters.shift), motion_(motion),
+      calendar_(calendar) {
     interval = cycles_between_answers;
 }
 
@@ -36,8 +38,8 @@ Point BaseMotion::displacement(double x, double time) const {
 
 void BaseMotion::respond(State& state, const Clock& clock) {
     const double step = interval * clock.time_step;
-    const double time =
-        (clock.travel.m + motion_.at(clock.time(), clock.travel).travel_speed * step) / rate_;
+    const double time = calendar_.age(
+        Travel(clock.travel.m + motion_.at(clock.time(), clock.travel).travel_speed * step));
     const TargetLine shift = shift_.at(time), shift_before = shift_.at(0.0);
     const TargetLine uplift = uplift_.at(time), uplift_before = uplift_.at(0.0);
     const BaseNodeColumns nodes = base_node_columns(state);
@@ -49,7 +51,7 @@ void BaseMotion::respond(State& state, const Clock& clock) {
     }
 }
 
-double greatest_base_speed(const BaseMotionParameters& parameters, double rate) {
+double greatest_base_speed(const BaseMotionParameters& parameters, const Calendar& calendar) {
     double fastest = 0.0;
     for (const auto* stages : {&parameters.uplift, &parameters.shift})
         for (std::size_t k = 1; k < stages->size(); ++k) {
@@ -58,7 +60,8 @@ double greatest_base_speed(const BaseMotionParameters& parameters, double rate) 
             for (const auto* points : {&a.points, &b.points})
                 for (const Point& p : *points)
                     fastest = std::max(fastest, std::abs(after.height(p.x) - before.height(p.x)) /
-                                                    (rate * (b.time - a.time)));
+                                                    (b.time - a.time) *
+                                                    calendar.years_per_metre(a.time, b.time));
         }
     return fastest;
 }

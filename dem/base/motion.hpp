@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/calendar.hpp"
 #include "dem/cycle_physics.hpp"
 
 namespace listric::dem {
@@ -18,8 +19,8 @@ std::vector<Point> detachment_nodes(const Chain& chain, double face);
 /// answers nodes run evenly, and each answer aims at the place itself, so that nothing accumulates.
 class BaseMotion final : public BaseResponse {
 public:
-    /// @param rate  of extension, m/a: the clock of the stages
-    BaseMotion(const BaseMotionParameters& parameters, const Motion& motion, double rate);
+    BaseMotion(const BaseMotionParameters& parameters, const Motion& motion,
+               const Calendar& calendar);
 
     void respond(State& state, const Clock& clock) override;
 
@@ -28,11 +29,11 @@ public:
 private:
     Target uplift_, shift_;
     Motion motion_;
-    double rate_;
+    Calendar calendar_;
 };
 
 /// Greatest speed of a node over the extension's speed: a stage's change of displacement over the
 /// extension during it.
-double greatest_base_speed(const BaseMotionParameters& parameters, double rate);
+double greatest_base_speed(const BaseMotionParameters& parameters, const Calendar& calendar);
 
 } // namespace listric::dem

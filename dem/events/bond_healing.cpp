@@ -35,9 +35,9 @@ void remember_bonded(State& state) {
 } // namespace
 
 BondHealing::BondHealing(const BondHealingParameters& parameters, const BondStrength& strength,
-                         double extension_rate)
-    : Event("bond_healing", {parameters.interval, extension_rate}, Stage::heal),
-      parameters_(parameters), strength_(strength) {}
+                         const Calendar& calendar)
+    : Event("bond_healing", {parameters.interval, calendar}, Stage::heal), parameters_(parameters),
+      strength_(strength) {}
 
 void BondHealing::begin(State& state) {
     state.discs.add_like<double>("healed_x", "m", columns::x);
@@ -49,9 +49,9 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     const HealedColumns h = healed_columns(state);
-    const double strain = schedule().strain(parameters_.strain_rate);
+    const double strain = schedule().strain(parameters_.strain_rate, applied + 1);
     // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
-    const double latest = state.clock.travel.m - 0.75 * schedule().spacing();
+    const double latest = state.clock.travel.m - 0.75 * schedule().gap(applied + 1).m;
     const std::vector<bool> touches = touching(state);
     in_pieces(c.first.size(), 4096, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {

@@ -19,7 +19,7 @@ struct BondHealingParameters {
 class BondHealing : public Event {
 public:
     BondHealing(const BondHealingParameters& parameters, const BondStrength& strength,
-                double extension_rate);
+                const Calendar& calendar);
 
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;

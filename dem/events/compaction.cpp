@@ -25,8 +25,8 @@ struct Cover {
 } // namespace
 
 Compaction::Compaction(const CompactionParameters& parameters, double surface_porosity,
-                       double extension_rate)
-    : Event("compaction", {parameters.interval, extension_rate}), parameters_(parameters),
+                       const Calendar& calendar)
+    : Event("compaction", {parameters.interval, calendar}), parameters_(parameters),
       surface_porosity_(surface_porosity) {}
 
 void Compaction::begin(State& state) {
@@ -43,7 +43,7 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     const auto rock_radius =
         weakening ? state.discs.get(columns::rock_radius) : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get(columns::rock_area) : std::span<double>{};
-    const Travel now = state.clock.travel, next = now + Travel(schedule().spacing());
+    const Travel now = state.clock.travel, next = now + schedule().gap(applied + 2);
     const double seconds = base.motion.time_at(next) - base.motion.time_at(now);
     const GroundLevel ground(state);
     const bool given = state.discs.has(columns::wanted_porosity);

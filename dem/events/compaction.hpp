@@ -33,7 +33,7 @@ public:
     static constexpr double approach = 0.5;
 
     Compaction(const CompactionParameters& parameters, double surface_porosity,
-               double extension_rate);
+               const Calendar& calendar);
 
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;

@@ -277,9 +277,9 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter) {
                : p.least_slip / (p.interval * seconds_per_year * halves_apart(p, mean_diameter));
 }
 
-FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
+FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, const Calendar& calendar,
                                double gravity)
-    : Event("fault_weakening", {parameters.interval, extension_rate}, Stage::weaken),
+    : Event("fault_weakening", {parameters.interval, calendar}, Stage::weaken),
       parameters_(parameters), gravity_(gravity) {
     for (const char* name : {"x_m", "y_m", "angle_rad", "slip_m", "found_at_m"})
         memory.add<double>(name, "", 0.0);
@@ -296,14 +296,16 @@ void FaultWeakening::begin(State& state) {
 }
 
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
-    const FaultWeakeningParameters& p = parameters_;
+    FaultWeakeningParameters p = parameters_;
+    p.interval = schedule().years(applied + 1);
     const double diameter = 2.0 * state.mean_radius;
     const Lengths l{diameter, p.circle_diameters * diameter,
                     p.sound_share * p.circle_diameters * diameter, p.band_diameters * diameter};
     // A disc laid down since the last scan (but for half a cycle) has moved for less time than
     // others.
-    const double loose = without_round_off(p.youngest_sediment * schedule().extension_rate);
-    const double youngest = std::max(p.whole_domain ? 0.0 : loose, 0.99 * schedule().spacing());
+    const double loose = schedule().calendar().way_back(state.clock.travel, p.youngest_sediment).m;
+    const double youngest =
+        std::max(p.whole_domain ? 0.0 : loose, 0.99 * schedule().gap(applied + 1).m);
     const Displacements sample = displacements(state, youngest, p.whole_domain);
     const Cells cells(sample.x, sample.y, 0.5 * l.circle);
     const std::vector<FaultSegment> found =
@@ -316,7 +318,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     if (p.heal_after > 0.0)
         heal(state,
              rested_discs(state, sample, cells, 0.5 * l.circle, p,
-                          schedule().strain(p.resting_rate)),
+                          schedule().strain(p.resting_rate, applied + 1)),
              mean_stress_ratio(p, state, base), gravity_);
     std::vector<std::int32_t> converted =
         joined(by_piece(bands.size(), 4, [&](std::size_t k, std::size_t end) {

@@ -73,7 +73,7 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 /// travel).
 class FaultWeakening : public Event {
 public:
-    FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
+    FaultWeakening(const FaultWeakeningParameters& parameters, const Calendar& calendar,
                    double gravity);
 
     void begin(State& state) override;

@@ -11,13 +11,13 @@ constexpr double spacing_of_soft_layers = 25.0; // m of travel
 
 } // namespace
 
-PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
+PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, const Calendar& calendar,
                                double gravity)
-    : Event("property_update", {parameters.update_interval, extension_rate}),
-      parameters_(parameters), gravity_(gravity) {}
+    : Event("property_update", {parameters.update_interval, calendar}), parameters_(parameters),
+      gravity_(gravity) {}
 
-PropertyUpdate::PropertyUpdate(double extension_rate, double gravity)
-    : Event("property_update", Schedule::every(spacing_of_soft_layers, extension_rate)),
+PropertyUpdate::PropertyUpdate(const Calendar& calendar, double gravity)
+    : Event("property_update", Schedule::every(spacing_of_soft_layers, calendar)),
       gravity_(gravity) {}
 
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {

@@ -18,11 +18,11 @@ namespace listric::dem {
 /// it would go on from step to step, shake zones loose and let what lies on them sink.
 class PropertyUpdate : public Event {
 public:
-    PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
+    PropertyUpdate(const FaultWeakeningParameters& parameters, const Calendar& calendar,
                    double gravity);
 
     /// An update of soft layers alone, where no fault is weakened.
-    PropertyUpdate(double extension_rate, double gravity);
+    PropertyUpdate(const Calendar& calendar, double gravity);
 
     bool apply(State& state, const RigidBase& base) override;
 

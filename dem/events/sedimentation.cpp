@@ -209,7 +209,7 @@ double disc_density(const SedimentationParameters& parameters) {
 }
 
 double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
-                                     const Motion& motion, double rate, double end) {
+                                     const Motion& motion, const Calendar& calendar, double end) {
     const Target target(parameters.level, parameters.target);
     double highest = -std::numeric_limits<double>::infinity();
     const auto look_at = [&](double time) {
@@ -221,10 +221,11 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
     };
     // A line that changes linearly is highest at an end.
     const auto look_from = [&](double begin, double last) {
-        look_at(begin / rate);
-        look_at(last / rate);
+        const double from = calendar.age(Travel(begin)), to = calendar.age(Travel(last));
+        look_at(from);
+        look_at(to);
         for (const TargetStage& stage : parameters.target)
-            if (stage.time > begin / rate && stage.time < last / rate)
+            if (stage.time > from && stage.time < to)
                 look_at(stage.time);
     };
     if (motion.stages.empty())
@@ -236,8 +237,8 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
 }
 
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
-                             double extension_rate)
-    : Event("sedimentation", {parameters.interval, extension_rate}, Stage::deposit),
+                             const Calendar& calendar)
+    : Event("sedimentation", {parameters.interval, calendar, InSteps::once}, Stage::deposit),
       parameters_(parameters), target_(parameters.level, parameters.target),
       radius_ratio_(radius_ratio) {}
 
@@ -245,10 +246,9 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
     const double largest = radius_ratio_ * smallest;
     const Travel travel = state.clock.travel;
-    const auto stratum = static_cast<std::int32_t>(std::lround(travel.m / schedule().spacing()));
-    const TargetLine line = target_.at(travel.m / schedule().extension_rate);
-    const SurfaceWork work =
-        base.motion.surface_work(travel - Travel(schedule().spacing()), travel);
+    const auto stratum = static_cast<std::int32_t>(schedule().nearest(travel));
+    const TargetLine line = target_.at(schedule().calendar().age(travel));
+    const SurfaceWork work = base.motion.surface_work(travel - schedule().gap(stratum), travel);
     const bool erodes = work == SurfaceWork::both || work == SurfaceWork::erode;
     const bool fills = work == SurfaceWork::both || work == SurfaceWork::fill;
     const double removed = erodes ? erode(state, line) : 0.0;

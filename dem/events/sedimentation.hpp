@@ -22,10 +22,9 @@ double disc_density(const SedimentationParameters& parameters);
 /// Greatest height, m, up to which the surface is filled at and behind the breakaway, x <= 0. Above
 /// 0 a backstop holds sediment there; level ground (DetachmentParameters::footwall_top) would be
 /// covered close to the hanging wall alone, and sediment fall off its end.
-/// @param rate  extension rate, m/a
-/// @param end   extension at the end, m, of a motion without stages
+/// @param end  extension at the end, m, of a motion without stages
 double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
-                                     const Motion& motion, double rate, double end);
+                                     const Motion& motion, const Calendar& calendar, double end);
 
 /// Adapts the surface to the target line, whatever its shape.
 ///
@@ -36,7 +35,7 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
 class Sedimentation : public Event {
 public:
     Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
-                  double extension_rate);
+                  const Calendar& calendar);
 
     bool apply(State& state, const RigidBase& base) override;
 

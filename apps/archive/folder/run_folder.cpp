@@ -125,7 +125,8 @@ RunMoments some_moments(const fs::path& output) {
 /// An older version applied some events more often where the motion is slow.
 void count_as_spaced_now(Event& event, Travel now) {
     const Travel spacing(event.schedule().spacing());
-    if (std::isfinite(spacing.m) && event.next_due() > now + 2.0 * spacing)
+    if (event.schedule().calendar().pauses().empty() && std::isfinite(spacing.m) &&
+        event.next_due() > now + 2.0 * spacing)
         event.applied = static_cast<std::int64_t>(now / spacing);
 }
 

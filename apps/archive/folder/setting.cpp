@@ -46,7 +46,7 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.has_detachment = scene.detachment.has_value();
     setting.has_bonds = parts.bonds.has_value();
     setting.gravity = parts.physics.gravity;
-    setting.extension_rate = scene.extension.rate;
+    setting.calendar = make_calendar(scene);
     setting.extension_speed = scene.extension.speed;
     setting.motion = parts.base.motion;
     setting.output_interval = scene.output.interval;

@@ -57,7 +57,7 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
     for (const auto& [number, stratum] : well.rock)
         well.lines[number].values = {place.name,
                                      static_cast<double>(number),
-                                     stratum.deposited_at.m / setting.extension_rate,
+                                     setting.calendar.age(stratum.deposited_at),
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
                                      setting.sediment->surface_porosity,
                                      static_cast<double>(stratum.ids.size())};
@@ -75,9 +75,8 @@ void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
         line.points.push_back({metres(b.x), -metres(b.top)});
         line.at_points.insert(line.at_points.end(),
                               {metres(b.base), metres(b.top - b.ground), metres(b.base - b.top),
-                               b.porosity, clock.extension.m,
-                               clock.travel.m / setting.extension_rate,
-                               (drilled_at - clock.travel).m / setting.extension_rate});
+                               b.porosity, clock.extension.m, setting.calendar.age(clock.travel),
+                               setting.calendar.years(clock.travel, drilled_at)});
     }
 }
 

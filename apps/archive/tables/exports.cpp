@@ -151,7 +151,7 @@ LineTable reference_surfaces_table(const ExportedMoment& at) {
     add("original surface", {{0.0, 0.0}, {right, 0.0}});
     if (setting.sediment) {
         const TargetLine target =
-            setting.sediment->target.at(state.clock.travel.m / setting.extension_rate);
+            setting.sediment->target.at(setting.calendar.age(state.clock.travel));
         Polyline points{{0.0, target.height(0.0)}};
         for (const Point p : target.points())
             if (p.x > 0.0 && p.x < right)

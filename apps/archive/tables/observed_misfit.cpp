@@ -46,7 +46,9 @@ double usual_interval(const std::vector<Horizon>& horizons) {
 /// its goal, and distance / rate has the round-off of a division.
 double slack_of_ages(const Scene& scene, const State& state, double end) {
     const double speed = make_motion(scene).greatest_speed();
-    return std::max(1e-6 * end, speed * state.clock.time_step / scene.extension.rate);
+    return std::max(1e-6 * end, speed * state.clock.time_step /
+                                    make_calendar(scene).metres_per_year(
+                                        dem::Travel(scene.extension.distance)));
 }
 
 void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon& horizon,
@@ -62,8 +64,8 @@ void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon&
 
 std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& state,
                                               const std::vector<Horizon>& horizons) {
-    const double end = scene.extension.distance / scene.extension.rate;
-    const double now = state.clock.travel.m / scene.extension.rate;
+    const double end = end_age(scene);
+    const double now = make_calendar(scene).age(state.clock.travel);
     const double slack = slack_of_ages(scene, state, end);
     const double diameter = 2.0 * state.mean_radius;
     std::vector<ObservedHorizon> rows;

@@ -46,7 +46,8 @@ def caption(names: Sequence[str], said: Sequence[str | None] | None, frame: Fram
         left, top, right, bottom = meta["underlay"]["corners_m"]
         panels += (f" ({os.path.basename(meta['underlay']['image'])}, x from {left:g} to {right:g} m, depth from "
                    f"{top:g} to {bottom:g} m)")
-    rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
+    mean_rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
+    rate = mean_rate and meta.get("extension_rate_m_per_a", mean_rate)  # the mean is lower where pauses go by steps
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
     parts = [f"{order.software} model: {without_source(str(meta.get('title') or meta['scene']))}.",
              f"After {moment_text(frame)}{at} ({time_text(frame)}): {panels}."]

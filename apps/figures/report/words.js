@@ -23,12 +23,19 @@ function placeText(metres, decimals = 2) {
 
 /** Unit in which the page tells time, by its longest run. */
 function timeUnit() {
-  const longest = Math.max(...page.runs.map(run => Math.max(run.head.extension_m, travelOf(run.moments.at(-1))) / run.head.rate_m_per_a));
+  const longest = Math.max(...page.runs.map(run => yearsOf(run, Math.max(run.head.extension_m, travelOf(run.moments.at(-1))))));
   return longest >= 1e4 ? {name: "Myr", years: 1e6} : {name: "a", years: 1};
 }
 
+/** Age of a run at a travel: straight between the corners that its head has, and beyond. */
+function yearsOf(run, travel) {
+  const ages = run.head.ages, end = Math.max(1, ages.findIndex(([at]) => at >= travel));
+  const [[x0, y0], [x1, y1]] = ages.at(-1)[0] < travel ? ages.slice(-2) : ages.slice(end - 1);
+  return y0 + (y1 - y0) * (travel - x0) / (x1 - x0);
+}
+
 /** How long the wall of a run has been on a way, in the page's unit. */
-function timeOf(run, travel) { return travel / run.head.rate_m_per_a / timeUnit().years; }
+function timeOf(run, travel) { return yearsOf(run, travel) / timeUnit().years; }
 
 /** Decimals of lengths in metres: none for discs of 10 m and more, as in the program's tables. */
 function metreDecimals() {

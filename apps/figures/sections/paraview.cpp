@@ -271,9 +271,8 @@ std::vector<std::pair<double, std::string>> files_of_moments(const fs::path& out
     return files;
 }
 
-/// @param extension_rate  m/a
 void write_series(const fs::path& output, const MomentNames& names, double now,
-                  double extension_rate) {
+                  const Calendar& calendar) {
     std::set<std::tuple<double, std::size_t, std::string>> files; // in the series' order
     for (std::size_t part = 0; part < parts.size(); ++part)
         for (const auto& [extension, name] :
@@ -284,14 +283,14 @@ void write_series(const fs::path& output, const MomentNames& names, double now,
     // ParaView names a block after `name`; it goes by the order of the lines, not by `part`.
     for (const auto& [extension, part, name] : files)
         series += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                              extension / extension_rate / 1e6, part, parts[part], name);
+                              calendar.age(Travel(extension)) / 1e6, part, parts[part], name);
     write_text(output / "paraview.pvd", series + "</Collection>\n</VTKFile>\n");
 }
 
 } // namespace
 
 void write_paraview(const fs::path& output, const State& state, const RigidBase& base,
-                    const MomentNames& names, double extension_rate) {
+                    const MomentNames& names, const Calendar& calendar) {
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
@@ -299,19 +298,19 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
     write_text(folder / ("discs-" + moment), discs_file(state, base));
     write_text(folder / ("contacts-" + moment), contacts_file(state));
     write_text(folder / ("base-" + moment), base_file(state, base));
-    write_series(output, names, state.clock.travel.m, extension_rate);
+    write_series(output, names, state.clock.travel.m, calendar);
     copy_view(output);
 }
 
 void write_footwall(const fs::path& output, const fem::Footwall& footwall, double extension,
-                    const MomentNames& names, double extension_rate) {
+                    const MomentNames& names, const Calendar& calendar) {
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
     footwall.write(folder.string(), "footwall-" + names.metres(extension) + "m");
     auto moments = files_of_moments(output, "footwall-", "m.vtu", names, extension);
     for (auto& [time, file] : moments)
-        time = time / extension_rate / 1e6;
+        time = calendar.age(Travel(time)) / 1e6;
     fem::write_series((output / "footwall.pvd").string(), moments);
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/support/words/moment_names.hpp"
 #include "dem/base.hpp"
+#include "dem/calendar.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"
 
@@ -17,14 +18,15 @@ namespace listric {
 /// holds those that are there of this moment and the ends of windows, with time in Myr;
 /// docs/guides/paraview.md tells how to look at it.
 /// @param names  of the run's moments
-/// @param extension_rate  m/a. Throws StorageError.
+/// Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
-                    const dem::RigidBase& base, const MomentNames& names, double extension_rate);
+                    const dem::RigidBase& base, const MomentNames& names,
+                    const dem::Calendar& calendar);
 
 /// Writes the footwall's present field, of that moment: a file in output/paraview, and the series
 /// output/footwall.pvd of this moment and the ends of windows. Throws StorageError.
 void write_footwall(const std::filesystem::path& output, const fem::Footwall& footwall,
-                    double extension, const MomentNames& names, double extension_rate);
+                    double extension, const MomentNames& names, const dem::Calendar& calendar);
 
 /// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
 void copy_view(const std::filesystem::path& output);

@@ -196,8 +196,9 @@ public:
             const Setting& setting)
         : older_(older), detachment_(detachment), motion_(setting.motion) {
         for (std::size_t k = 0; k + 1 < older.size(); ++k) {
-            fields_.push_back(
-                shear_field(older[k], older[k + 1], setting.youngest_sediment, setting.motion));
+            fields_.push_back(shear_field(older[k], older[k + 1],
+                                          setting.way_of_loose_sediment(older[k + 1].travel),
+                                          setting.motion));
             coarsen(fields_.back(), unit);
             cells_.emplace_back(fields_.back().x, fields_.back().y, 1.5 * unit);
         }
@@ -371,8 +372,9 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
     const double diameter = 2.0 * now.mean_radius;
     const double unit = std::max(diameter, coarsest_unit * setting.thickness);
     const DiscPlaces discs(now);
-    ShearField field = shear_field(older.back(), discs, setting.youngest_sediment, setting.motion);
-    const double years = (now.clock.travel - older.back().travel).m / setting.extension_rate;
+    ShearField field = shear_field(older.back(), discs,
+                                   setting.way_of_loose_sediment(now.clock.travel), setting.motion);
+    const double years = setting.calendar.years(older.back().travel, now.clock.travel);
     coarsen(field, unit);
     const std::vector<FaultTrace> traces = trace_faults(field, detachment);
     if (!traces.empty()) {

@@ -300,10 +300,11 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     const std::vector<Polyline> traces = cutting_traces(faults);
     std::vector<Horizon> horizons;
     for (const auto& [stratum, at] : travel)
-        horizons.push_back({stratum,
-                            stratum > 0 ? std::optional(at / setting.extension_rate) : std::nullopt,
-                            {},
-                            {}});
+        horizons.push_back(
+            {stratum,
+             stratum > 0 ? std::optional(setting.calendar.age(Travel(at))) : std::nullopt,
+             {},
+             {}});
     const auto trace = [&](Horizon& horizon, const GridValues& share, const GridValues* below) {
         horizon.top = tops(share, room, diameter);
         for (const Polyline& top : horizon.top) {

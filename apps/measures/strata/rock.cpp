@@ -165,7 +165,7 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     if (!setting.sediment)
         return numbers;
     const Sediment& sediment = *setting.sediment;
-    const TargetLine surface = sediment.target.at(state.clock.travel.m / setting.extension_rate);
+    const TargetLine surface = sediment.target.at(setting.calendar.age(state.clock.travel));
     if (sediment.porosity_decay)
         append(numbers,
                measure_porosity(state, sediment,

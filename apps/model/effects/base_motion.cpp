@@ -37,7 +37,7 @@ void check(const Scene& scene, const Refuse& refuse) {
     const P& motion = *scene.find<P>();
     if (motion.uplift.empty() && motion.shift.empty())
         refuse("base_motion", "needs csv, or uplift or shift");
-    const double speed = dem::greatest_base_speed(motion, scene.extension.rate);
+    const double speed = dem::greatest_base_speed(motion, make_calendar(scene));
     if (speed > fastest)
         refuse("base_motion",
                fmt::format("moves {:.3g} times as fast as extension, allowed: at most {}; spread "
@@ -64,7 +64,7 @@ bool changes(const std::vector<dem::TargetStage>& stages, double end) {
 
 std::string warning(const Scene& scene) {
     const P& motion = *scene.find<P>();
-    const double end = scene.extension.distance / scene.extension.rate;
+    const double end = end_age(scene);
     if (changes(motion.uplift, end) || changes(motion.shift, end))
         return "";
     return fmt::format("base_motion moves nothing up to the end of the run at {:g} a: what counts "
@@ -76,7 +76,7 @@ std::string warning(const Scene& scene) {
 class BaseMotionDriver final : public BaseDriver {
 public:
     BaseMotionDriver(const Scene& scene, const ModelParts& parts)
-        : motion_(*scene.find<P>(), parts.base.motion, scene.extension.rate) {}
+        : motion_(*scene.find<P>(), parts.base.motion, make_calendar(scene)) {}
 
     dem::BaseResponse& response() override { return motion_; }
 
@@ -135,7 +135,7 @@ const Effect& effect() {
                 return fmt::format(
                     "the detachment moves as prescribed, at up to {:.2g} of the "
                     "speed of extension\n",
-                    dem::greatest_base_speed(*scene.find<P>(), scene.extension.rate));
+                    dem::greatest_base_speed(*scene.find<P>(), make_calendar(scene)));
             },
     };
     return effect;

@@ -19,7 +19,7 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     const auto& base = *bending_base(scene);
     return coupling::basin_water_load(
         *scene.find<P>(), parts.gravity,
-        coupling::water_column_width(scene.hanging_wall.mean_radius), scene.extension.rate, pores,
+        coupling::water_column_width(scene.hanging_wall.mean_radius), make_calendar(scene), pores,
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 

@@ -33,11 +33,11 @@ const Effect& effect() {
         .add_events =
             [](const Scene& scene, const ModelParts& parts, dem::Events& events) {
                 dem::add(events, std::make_unique<dem::BondHealing>(*scene.find<P>(), *parts.bonds,
-                                                                    scene.extension.rate));
+                                                                    make_calendar(scene)));
             },
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * 15.0 * work.discs;
+                return work.applications(scene.find<P>()->interval) * 15.0 * work.discs;
             },
     };
     return effect;

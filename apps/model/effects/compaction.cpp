@@ -38,12 +38,12 @@ const Effect& effect() {
             [](const Scene& scene, const ModelParts& parts, dem::Events& events) {
                 dem::add(events, std::make_unique<dem::Compaction>(*scene.find<P>(),
                                                                    parts.sediment->surface_porosity,
-                                                                   scene.extension.rate));
+                                                                   make_calendar(scene)));
             },
         .absence = {"compaction of sediment", "-18 % at Te 10 km"},
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * 4.0 * work.discs;
+                return work.applications(scene.find<P>()->interval) * 4.0 * work.discs;
             },
         // With burial sediment shrinks: lis1 takes 1.85 times the discs of a packing of the area
         // that it fills; 1.1 times have been counted.

@@ -113,9 +113,10 @@ std::vector<Parameter> parameters() {
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const P& p = *scene.find<P>();
-    const double rate = scene.extension.rate, gravity = parts.physics.gravity;
-    dem::add(events, std::make_unique<dem::PropertyUpdate>(p, rate, gravity));
-    dem::add(events, std::make_unique<dem::FaultWeakening>(p, rate, gravity));
+    const dem::Calendar calendar = make_calendar(scene);
+    const double gravity = parts.physics.gravity;
+    dem::add(events, std::make_unique<dem::PropertyUpdate>(p, calendar, gravity));
+    dem::add(events, std::make_unique<dem::FaultWeakening>(p, calendar, gravity));
 }
 
 /// The slowest motion of a scene's wall.
@@ -251,8 +252,8 @@ const Effect& effect() {
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();
-                return work.years / p.interval * 330.0 * work.discs +
-                       work.years / p.update_interval * 18.0 * work.discs;
+                return work.applications(p.interval) * 330.0 * work.discs +
+                       work.applications(p.update_interval) * 18.0 * work.discs;
             },
         .measures = measures(),
         .layers = {{"weak", LayerKind::discs, "weakened", "#e9a59a", weak_discs}},

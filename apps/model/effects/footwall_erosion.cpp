@@ -53,7 +53,7 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     const auto& base = *bending_base(scene);
     P erosion = *scene.find<P>();
     erosion.rock_density = base.crust_density;
-    return coupling::footwall_erosion_load(erosion, parts.gravity, base.left, scene.extension.rate);
+    return coupling::footwall_erosion_load(erosion, parts.gravity, base.left, make_calendar(scene));
 }
 
 std::string explain(const Scene& scene, EffectList) {

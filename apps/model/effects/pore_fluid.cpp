@@ -76,12 +76,12 @@ std::vector<Parameter> parameters() {
     return all;
 }
 
-fluid::WetSediment wet_sediment(const ModelParts& parts, double rate) {
+fluid::WetSediment wet_sediment(const ModelParts& parts, const dem::Calendar& calendar) {
     return {parts.sediment->surface_porosity,
             *parts.sediment->porosity_decay,
             parts.sediment->grain_density,
             parts.sediment->surface,
-            {parts.sediment->deposition_interval, rate}};
+            {parts.sediment->deposition_interval, calendar, dem::InSteps::once}};
 }
 
 fluid::MudColumn mud_column(const P& p, const fluid::WetSediment& sediment, double gravity) {
@@ -99,8 +99,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
         return;
     p.level = p.level.value_or(parts.sediment->level);
     dem::add(events,
-             std::make_unique<fluid::PoreFluid>(p, wet_sediment(parts, scene.extension.rate),
-                                                parts.gravity, scene.extension.rate));
+             std::make_unique<fluid::PoreFluid>(p, wet_sediment(parts, make_calendar(scene)),
+                                                parts.gravity, make_calendar(scene)));
 }
 
 /// Water weighs on every scene's start, its permeability on none.
@@ -166,7 +166,7 @@ double seconds_of_extension(const Scene& scene) {
             travel += (one.end - one.start).m;
     if (!scene.find<Stages>())
         travel = scene.extension.distance;
-    return dem::Schedule{travel / scene.extension.rate, scene.extension.rate}.seconds();
+    return dem::Schedule{travel / scene.extension.rate, scene.extension.rate}.seconds(1);
 }
 
 /// Pressure and porosity of a column of this mud at the depocentre.
@@ -178,7 +178,7 @@ std::string explain(const Scene& scene, EffectList) {
             "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
             parts.physics.gravity / parts.gravity);
     const fluid::MudColumn column =
-        mud_column(p, wet_sediment(parts, scene.extension.rate), parts.gravity);
+        mud_column(p, wet_sediment(parts, make_calendar(scene)), parts.gravity);
     // A floor below a steep detachment sinks by nine tenths of the extension.
     const double depth = std::min(0.9 * greatest_extension(scene), scene.hanging_wall.thickness);
     if (depth <= 0.0)
@@ -247,7 +247,7 @@ const Effect& effect() {
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();
-                return p.hydrostatic ? 0.0 : work.years / p.interval * 450.0 * work.discs;
+                return p.hydrostatic ? 0.0 : work.applications(p.interval) * 450.0 * work.discs;
             },
         .measures = pore_fluid_measures(),
         .objects = pore_fluid_objects(),

@@ -27,6 +27,7 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
     const auto water = state.discs.get(fluid::columns::pore_water);
     const std::vector<double> grains = dem::grains_above(state, porosity);
     const fluid::WetGround ground(state, now.parts.base.motion, fluid->sediment());
+    const dem::Calendar calendar = make_calendar(now.scene);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (water[i] < 0.0) // rock, and sediment that came after the last solution
             continue;
@@ -35,7 +36,7 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         disc.x = d.x[i];
         disc.y = d.y[i];
         disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        disc.age = (state.clock.travel.m - d.start_travel[i]) / now.scene.extension.rate;
+        disc.age = calendar.years(dem::Travel(d.start_travel[i]), state.clock.travel);
         disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
         disc.excess_pressure = pressure[i];
         disc.weight = ratio[i] != 0.0

@@ -50,8 +50,8 @@ std::vector<Parameter> parameters() {
 /// The event that deposits and, where sediment weighs, the one that looks at what carries it.
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const double rate = scene.extension.rate;
-    dem::add(events, std::make_unique<dem::Sedimentation>(*scene.find<P>(),
-                                                          scene.hanging_wall.radius_ratio, rate));
+    dem::add(events, std::make_unique<dem::Sedimentation>(
+                         *scene.find<P>(), scene.hanging_wall.radius_ratio, make_calendar(scene)));
     if (parts.physics.gravity <= 0.0)
         return;
     std::optional<double> between_changes; // of porosity, m of travel
@@ -99,7 +99,8 @@ double new_area(const Scene& scene) {
 double price(const Scene& scene, const Workload& work) {
     constexpr double of_a_heaped_disc = 2e5;
     const double tries = 4e5 + 6.5e4 * work.area_ratio;
-    return work.years / scene.find<P>()->interval * (tries + 40.0 * work.discs) +
+    return work.applications(scene.find<P>()->interval, dem::InSteps::once) *
+               (tries + 40.0 * work.discs) +
            of_a_heaped_disc *
                static_cast<double>(dem::disc_count(scene.hanging_wall, area_above_surface(scene)));
 }
@@ -121,7 +122,7 @@ void check(const Scene& scene, const Refuse& refuse) {
     if (!scene.detachment || !scene.detachment->footwall_top)
         return;
     const double fill = dem::highest_fill_behind_breakaway(
-        p, make_motion(scene), scene.extension.rate, scene.extension.distance);
+        p, make_motion(scene), make_calendar(scene), scene.extension.distance);
     if (fill > 0.0)
         refuse(p.target.empty() ? "sedimentation.level_m" : "sedimentation.target",
                fmt::format("is {} at x <= 0 beside detachment.footwall_top_m = {}: sediment cannot "

@@ -3,14 +3,17 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage_steps.hpp"
 #include "apps/scene/base_words.hpp"
 #include "dem/base/just_before.hpp"
+#include "dem/base/motion.hpp"
 #include "dem/columns.hpp"
 #include "dem/events/stage_change.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -21,7 +24,7 @@ namespace {
 dem::TargetLine regional_in(const Scene& scene, const ModelParts& parts) {
     return regional_of(parts.base.motion,
                        parts.sediment ? parts.sediment->surface : dem::Target(0.0),
-                       scene.extension.rate);
+                       make_calendar(scene));
 }
 
 /// Remembers what the way back is compared with: the column `turn_strain`, and rows at the turn and
@@ -71,6 +74,9 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
         dem::add(events, std::make_unique<dem::StageChange>(motion));
     if (PauseRecord::is_needed(motion))
         dem::add(events, std::make_unique<PauseRecord>(motion));
+    if (const dem::Calendar calendar = make_calendar(scene); !calendar.pauses().empty())
+        dem::add(events, std::make_unique<StepRecord>(
+                             calendar, scene.find<dem::BaseMotionParameters>() != nullptr));
     if (const auto turn = turn_of(motion))
         dem::add(events, std::make_unique<TurnRecord>(*turn, regional_in(scene, parts)));
 }
@@ -158,21 +164,51 @@ std::optional<double> rest_strain(const Observation& now) {
     return or_nan(before > 0.0 ? std::optional(*strain / before) : std::nullopt);
 }
 
+/// Number of the steps' record; none in scenes without steps.
+std::optional<double> of_steps(const Observation& now, double (StepRecord::*value)() const) {
+    const auto* record = dem::find<const StepRecord>(now.events);
+    return record ? std::optional((record->*value)()) : std::nullopt;
+}
+
+/// What a pause costs, and how it would cost less.
+std::string price_of_pause(const Scene& scene, std::size_t stage) {
+    constexpr double dear = 20e3; // m of travel
+    const StageParameters& pause = (*scene.find<Stages>())[stage];
+    const dem::Motion motion = make_motion(scene);
+    const dem::MotionStage& one = motion.stages[stage];
+    const double way = (one.end - one.start).m;
+    const double seconds = motion.time_at(one.end) - motion.time_at(one.start);
+    const double share = seconds / motion.time_at(motion.stages.back().end);
+    std::string text =
+        fmt::format(", {:g} km of travel, {:.0f} % of the run's cycles", way / 1e3, 100.0 * share);
+    if (!pause.step)
+        return way <= dear
+                   ? text
+                   : text + fmt::format("; with step_a = 1e6 it takes {:g} km",
+                                        std::ceil(*pause.pause / 1e6) * usual_settling / 1e3);
+    const double settle = pause.settle.value_or(usual_settling), steps = std::round(way / settle);
+    return text + fmt::format("; {:g} step{} of {:g} Myr, {:g} m or {:.0f} s of the model each",
+                              steps, steps == 1.0 ? "" : "s", *pause.pause / steps / 1e6, settle,
+                              settle / one.speed);
+}
+
 std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
+    const dem::Calendar calendar = make_calendar(scene);
     const Stages& stages = *scene.find<Stages>();
     for (std::size_t k = 0; k < stages.size(); ++k) {
         const dem::MotionStage& one = motion.stages[k];
-        const double years = (one.end - one.start).m / scene.extension.rate;
+        const double years = calendar.years(one.start, one.end);
         const double way = one.slope * (one.end - one.start).m;
         text += fmt::format("  to {:g} km of travel: {}, {:g} Myr{}\n", one.end.m / 1e3,
                             way == 0.0  ? std::string("pause")
                             : way > 0.0 ? fmt::format("{:g} km of extension", way / 1e3)
                                         : fmt::format("{:g} km of shortening", -way / 1e3),
                             years / 1e6,
-                            stages[k].base && way != 0.0 ? ", base: " + base_name(*stages[k].base)
-                                                         : "");
+                            way == 0.0       ? price_of_pause(scene, k)
+                            : stages[k].base ? ", base: " + base_name(*stages[k].base)
+                                             : "");
     }
     return text;
 }
@@ -183,9 +219,10 @@ std::vector<Measure<Observation>> measures_of_stages() {
          "way of base and right wall, back and forth, at extension.rate_m_per_a, and in pauses: "
          "the run's clock, by which files are named",
          [](const Observation& now) -> std::optional<double> { return now.state.clock.travel.m; }},
-        {"elapsed_a", "a", "time since the start", "travel over extension.rate_m_per_a",
+        {"elapsed_a", "a", "time since the start",
+         "travel over extension.rate_m_per_a; in pauses with step_a the years of their steps",
          [](const Observation& now) -> std::optional<double> {
-             return now.state.clock.travel.m / now.scene.extension.rate;
+             return make_calendar(now.scene).age(now.state.clock.travel);
          }},
         {"stage", "1", "stage", "number of the [[stage]], counted from 0",
          [](const Observation& now) -> std::optional<double> {
@@ -205,6 +242,18 @@ std::vector<Measure<Observation>> measures_of_stages() {
          "greatest displacement of a disc of rock in the newest pause; in summary.json the "
          "greatest",
          [](const Observation& now) { return in_pause(now, &Unrest::farthest); },
+         OverTime::largest},
+        {unsettled_steps, "1", "steps of pauses without rest",
+         "steps of pauses (step_a) in whose last quarter rock moves on by more than a hundredth of "
+         "the mean radius, mean of discs",
+         [](const Observation& now) { return of_steps(now, &StepRecord::unsettled); },
+         OverTime::last, "0"},
+        {"steps", "1", "steps of pauses", "steps of pauses (step_a) that have ended",
+         [](const Observation& now) { return of_steps(now, &StepRecord::steps); }},
+        {step_unrest, "m", "motion at a step's end",
+         "way of rock in the last quarter of the newest step, mean of discs, less that of a base "
+         "that moves as prescribed",
+         [](const Observation& now) { return of_steps(now, &StepRecord::last); },
          OverTime::largest},
         {"uplift_area_m2", "m2", "area uplifted above the regional",
          "growth since the turn of the area above the regional, over the footwall, too, with what "

@@ -76,8 +76,9 @@ std::optional<Travel> turn_of(const Motion& motion) {
     return first == motion.stages.end() ? std::nullopt : std::optional(first->start);
 }
 
-TargetLine regional_of(const Motion& motion, const Target& target, double rate) {
-    return target.at(turn_of(motion).value_or(Travel(std::numeric_limits<double>::max())).m / rate);
+TargetLine regional_of(const Motion& motion, const Target& target, const Calendar& calendar) {
+    return target.at(
+        calendar.age(turn_of(motion).value_or(Travel(std::numeric_limits<double>::max()))));
 }
 
 double area_above_regional(const State& state, const TargetLine& regional) {

@@ -20,7 +20,8 @@ std::optional<dem::Travel> turn_of(const dem::Motion& motion);
 
 /// The regional of a basin that is filled to a target, at the end where nothing shortens.
 /// @param rate  of extension, m/a
-dem::TargetLine regional_of(const dem::Motion& motion, const dem::Target& target, double rate);
+dem::TargetLine regional_of(const dem::Motion& motion, const dem::Target& target,
+                            const dem::Calendar& calendar);
 
 /// Area between the regional and the ground above it, over the footwall, too, m^2. Columns are a
 /// mean diameter wide, so that a rough ground at the regional has some.

@@ -194,7 +194,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const Workload work{.discs = 0.5 * (start + static_cast<double>(p.discs_at_end)),
                         .at_start = start,
                         .cycles = p.cycles,
-                        .years = scene.extension.distance / scene.extension.rate,
+                        .calendar = make_calendar(scene),
+                        .travel = Travel(scene.extension.distance),
                         .area_ratio = h.radius_ratio * h.radius_ratio};
     // Threads share genesis and loops over discs about as well as the cycle. Measures, figures and
     // effects are counted as work of one: drop and roll is a chain.

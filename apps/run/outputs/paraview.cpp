@@ -10,7 +10,7 @@ namespace {
 /// Writes the discs of the present moment.
 void save_step(const RunView& run) {
     write_paraview(run.options.output, run.state(), run.simulation.base(), run.names(),
-                   run.scene.extension.rate);
+                   make_calendar(run.scene));
 }
 
 /// Where pictures are drawn, writes the field below the discs, too: a file of it is larger.
@@ -20,7 +20,7 @@ void save_window(const RunView& run) {
         return;
     if (const fem::Footwall* footwall = run.footwall())
         write_footwall(run.options.output, *footwall, run.travel().m, run.names(),
-                       run.scene.extension.rate);
+                       make_calendar(run.scene));
 }
 
 } // namespace

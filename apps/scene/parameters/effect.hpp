@@ -189,8 +189,18 @@ struct Workload {
     double discs = 0.0; ///< mean over the run
     double at_start = 0.0;
     double cycles = 0.0;
-    double years = 0.0;
+    dem::Calendar calendar = 1.0;
+    dem::Travel travel = {}; ///< at the end
     double area_ratio = 0.0; ///< of the largest disc to the smallest
+
+    /// How often something happens that does so in an interval, a.
+    double applications(double interval,
+                        dem::InSteps in_steps = dem::InSteps::as_travel_asks) const {
+        return calendar.pauses().empty()
+                   ? calendar.age(travel) / interval
+                   : static_cast<double>(
+                         dem::Schedule(interval, calendar, in_steps).nearest(travel));
+    }
 };
 
 /// Where an effect's parameters are in the std::any that holds them.

@@ -183,7 +183,7 @@ std::vector<std::string_view> keys(const std::vector<Parameter>& parameters);
 // Ranges that several parameters share.
 namespace ranges {
 inline constexpr Range any;
-inline constexpr Range years{.from = 1, .to = 1e7};
+inline constexpr Range duration{.from = 1, .to = 3e8};  ///< of a pause, a
 inline constexpr Range interval{.from = 1, .to = 1e13}; ///< a: follows the rate down to 1e-9 m/a
 inline constexpr Range length{.from = 1e-3, .to = 1e6};
 inline constexpr Range height{.from = -1e5, .to = 1e5};

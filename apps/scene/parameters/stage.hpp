@@ -19,6 +19,8 @@ inline constexpr const char* travel_column = "travel_m";
 struct StageParameters {
     std::optional<double> distance;    ///< of the wall, m; below 0: shortening
     std::optional<double> pause;       ///< a
+    std::optional<double> step;        ///< of a pause, greatest, a; none: time goes by travel
+    std::optional<double> settle;      ///< travel of a step, m
     std::optional<double> rate;        ///< m/a; none: that of [extension]
     std::optional<double> speed;       ///< in the model, m/s; none: that of [extension]
     std::optional<dem::BaseKind> base; ///< none: that of the detachment
@@ -26,6 +28,9 @@ struct StageParameters {
     std::optional<double> sediment_friction;
     dem::SurfaceWork surface_work = dem::SurfaceWork::both;
 };
+
+/// Travel of a step of a pause where none is given, m.
+inline constexpr double usual_settling = 200.0;
 
 using Stages = std::vector<StageParameters>;
 

@@ -44,6 +44,15 @@ void check_each(const Stages& stages, const Refuse& refuse) {
         if (one.distance == 0.0)
             refuse(path_of(k, "distance_m"), "is 0, a stage that does nothing; leave it out, or "
                                              "give pause_a");
+        if (one.step && !one.pause)
+            refuse(path_of(k, "step_a"),
+                   fmt::format("is {}, but the stage is no pause; leave it out, or give pause_a",
+                               text(*one.step)));
+        if (one.settle && !one.step)
+            refuse(path_of(k, "settle_m"),
+                   fmt::format("is {}, travel of a step, but the stage has no step_a; give "
+                               "pause_a and step_a, or leave it out",
+                               text(*one.settle)));
         if (one.pause && one.rate)
             refuse(path_of(k, "rate_m_per_a"),
                    fmt::format("is {}, but the wall rests; leave it out", text(*one.rate)));
@@ -98,9 +107,20 @@ const std::vector<Parameter>& stage_parameters() {
         {"distance_m", at<&P::distance>, "m", between(-1e6, 1e6), "",
          "way of the wall; above 0 extension, below 0 shortening",
          "Turns the motion where its sign changes: normal faults slip back."},
-        {"pause_a", at<&P::pause>, "a", ranges::years, "",
+        {"pause_a", at<&P::pause>, "a", ranges::duration, "",
          "time in which base and wall rest, in place of distance_m",
-         "Lets sediment fill, compact and heal while nothing moves."},
+         "Lets sediment fill, compact and heal while nothing moves. Without step_a it takes as "
+         "much "
+         "travel as extension in that time."},
+        {"step_a", at<&P::step>, "a", ranges::duration, "",
+         "greatest step of a pause: strata, loads and all that goes by years then do so by equal "
+         "steps, settle_m of travel each; default: none, time goes by travel",
+         "Raising it makes a pause cheaper and its strata fewer and thicker.", between(1e5, 5e6)},
+        {"settle_m", at<&P::settle>, "m", between(50, 1e5), "",
+         "travel of a step of a pause, in which discs and base come to rest; default: 200",
+         "Raising it makes steps cost more and end nearer to rest; unsettled_steps tells whether "
+         "they do.",
+         between(100, 500)},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "",
          "geological rate, without sign; default: extension.rate_m_per_a",
          "Lowering it gives water, deposition, closing pores and healing more time per metre: "

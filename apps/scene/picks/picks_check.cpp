@@ -154,7 +154,7 @@ private:
 
     /// Ages in Ma look like the last moments of the rift; older ones have no top.
     void check_ages() {
-        const double end = scene_.extension.distance / scene_.extension.rate;
+        const double end = end_age(scene_);
         if (const std::string why = objection_to_ages(picked_, end); !why.empty())
             scene_.warnings.push_back(why);
         std::set<std::string> told;

@@ -76,7 +76,7 @@ void check_place(Scene& scene, const std::vector<TargetStage>& stages, const std
 }
 
 void check_times(Scene& scene, const std::vector<TargetStage>& stages, const std::string& file) {
-    const double end = scene.extension.distance / scene.extension.rate;
+    const double end = end_age(scene);
     if (stages.size() < 2 || end == 0.0)
         return;
     const double second = stages[1].time, last = stages.back().time;

@@ -81,7 +81,7 @@ inline const Effect& speed_gauge() {
             },
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * work.discs;
+                return work.applications(scene.find<P>()->interval) * work.discs;
             },
         .measures = {{"greatest_speed_m_per_s", "m/s", "greatest speed",
                       "greatest speed that a disc was seen at",

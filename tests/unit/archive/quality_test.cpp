@@ -160,5 +160,17 @@ TEST(Quality, APauseIsToBeARest) {
     }
 }
 
+TEST(Quality, StepsOfAPauseAreToEndAtRest) {
+    JsonObject run = good_run();
+    EXPECT_EQ(check_named(checks_of(run), "unsettled_steps").key, "");
+    run["steps"] = 60;
+    for (const auto& [unsettled, verdict] :
+         {std::pair(0, QualityVerdict::good), std::pair(1, QualityVerdict::doubtful)}) {
+        run["unsettled_steps"] = unsettled;
+        EXPECT_EQ(check_named(checks_of(run), "unsettled_steps").verdict, verdict);
+    }
+    EXPECT_EQ(check_named(checks_of(run), "unsettled_steps").value, "1 of 60 steps without rest");
+}
+
 } // namespace
 } // namespace listric::quality_test

@@ -330,7 +330,7 @@ TEST(ReverseFaults, AboveTheKink) {
     setting.thickness = 15e3;
     setting.has_detachment = true;
     setting.output_interval = 500.0;
-    setting.youngest_sediment = dem::Travel(weakening.youngest_sediment * setting.extension_rate);
+    setting.youngest_sediment = dem::Travel(weakening.youngest_sediment * setting.calendar.rate());
     setting.detection_circle = weakening.circle_diameters;
     auto detection = std::make_unique<FaultWeakening>(weakening, 0.01, 9.81);
     const double segments[4][5] = {// x, y, angle, slip, found at

@@ -321,7 +321,7 @@ struct Story {
     /// @param turn   of the footwall per window, degrees, counter-clockwise
     /// @param rests  window in which it does not slide
     Story(int windows, int birth, double turn, int rests = 0) {
-        setting.extension_rate = 0.01;
+        setting.calendar = 0.01;
         setting.youngest_sediment = Travel(2e3);
         base.surfaces = {{"detachment", {line({0.0, -1e5}, {3e5, -1e5})}, 0.0}};
         now = Block([](Point) { return Point{}; }).now;

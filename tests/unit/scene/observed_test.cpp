@@ -266,7 +266,7 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     measures::Setting setting;
     setting.length = 12e3;
     setting.thickness = 1e4;
-    setting.extension_rate = scene.extension.rate;
+    setting.calendar = scene.extension.rate;
     const auto horizons = measures::trace_horizons(setting, base, state, {});
     const auto rows = archive::compare_horizons(scene, state, horizons);
     ASSERT_EQ(rows.size(), 4u);
