@@ -65,6 +65,8 @@ inline constexpr ColumnName<double> wanted_porosity{
 inline constexpr ColumnName<std::int32_t> first{"first", "1", -1};
 inline constexpr ColumnName<std::int32_t> second{"second", "1", -1};
 inline constexpr ColumnName<double> shear_force{"shear_force", "N", 0.0};
+inline constexpr ColumnName<double> rolling_moment{
+    "rolling_moment", "N m", 0.0}; ///< on the second disc, or of the base (dem/rolling.hpp)
 inline constexpr ColumnName<std::uint8_t> bonded{"bonded", "1", 0};
 inline constexpr ColumnName<float> tensile_strength{"tensile_strength", "N", 0.0f};
 inline constexpr ColumnName<float> shear_strength{"shear_strength", "N", 0.0f};

@@ -16,6 +16,7 @@ struct ContactParameters {
     float normal_stiffness;           ///< K, N/m
     float shear_stiffness_times_step; ///< K_s dt, N s/m
     float friction;
+    float rolling_friction = 0.0f; ///< mu_r; no more than friction
 };
 
 /// Two linear springs in series (PFC's linear contact model). Not inline: g++ 12 drops a rounding
@@ -69,6 +70,25 @@ inline double contact_force(double overlap, double slip_rate, const ContactParam
     // Zero without friction, never -0, so that a frictionless cycle need not know the velocities.
     shear_force = limit > 0.0 ? std::min(std::max(shear, -limit), limit) : 0.0;
     return normal;
+}
+
+/// Stiffness of a contact against rolling, times the step, N m s: PFC's rolling resistance linear
+/// model. The lever r_i r_j / (r_i + r_j) is the disc's radius on a plane.
+inline double rolling_stiffness_times_step(const ContactParameters& p, double lever) {
+    return static_cast<double>(p.shear_stiffness_times_step) * (lever * lever);
+}
+
+/// Moment of an unbonded contact against rolling, on the second disc, N m: a spring that yields
+/// where the normal force acts mu_r times the lever off the centre [Iwashita & Oda 1998; Ai et al.
+/// 2011], so that a disc rests on a slope whose tangent is mu_r.
+/// @param before     the cycle, N m
+/// @param roll_rate  spin of the second disc less the first's, rad/s
+/// @param normal     force, N; none where discs are apart or bonded
+inline double rolling_moment(double before, double roll_rate, double lever, double normal,
+                             const ContactParameters& p) {
+    const double turned = before - rolling_stiffness_times_step(p, lever) * roll_rate;
+    const double limit = static_cast<double>(p.rolling_friction) * lever * normal;
+    return limit > 0.0 ? std::min(std::max(turned, -limit), limit) : 0.0;
 }
 
 /// The force less local damping: a share of its size that opposes the velocity, so that steady

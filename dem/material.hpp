@@ -39,6 +39,7 @@ struct Material {
     bool is_welded = true; ///< bonds may join it to other rock
     std::uint8_t weak_of = no_material;     ///< of weakened rock: the rock that it was
     std::optional<BondStrength> bonds = {}; ///< none: as strong as the hanging wall's
+    double rolling_friction = 0.0; ///< mu_r, of any material; a contact has the smaller of two
 };
 
 /// Whether a material is weakened rock.

@@ -2,6 +2,7 @@
 
 #include "dem/columns.hpp"
 #include "dem/numbers/hash.hpp"
+#include "dem/rolling.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -134,6 +135,7 @@ void reorder_discs(State& state, std::span<const std::int32_t> order) {
     state.discs.reorder(order);
 
     ContactColumns contacts = contact_columns(state);
+    const std::span<double> rolling = rolling_moments(state.contacts);
     std::vector<std::int32_t> kept;
     for (std::size_t c = 0; c < contacts.first.size(); ++c) {
         std::int32_t& first = contacts.first[c];
@@ -141,8 +143,11 @@ void reorder_discs(State& state, std::span<const std::int32_t> order) {
         first = moved_to[static_cast<std::size_t>(first)];
         second = moved_to[static_cast<std::size_t>(second)];
         // The shear force keeps its sign: swapping the discs turns both normal and force around.
-        if (first > second)
+        if (first > second) {
             std::swap(first, second);
+            if (!rolling.empty())
+                rolling[c] = -rolling[c];
+        }
         if (first >= 0)
             kept.push_back(static_cast<std::int32_t>(c));
     }
@@ -274,6 +279,8 @@ std::uint64_t hash(const State& state, Notes notes) {
         mix(h, m.shear_stiffness);
         mix(h, m.friction);
         mix(h, static_cast<std::uint8_t>(m.bondable));
+        if (m.rolling_friction != 0.0) // recorded hashes have none
+            mix(h, m.rolling_friction);
         if (k > weak)
             mix_of_layer(h, m);
     }

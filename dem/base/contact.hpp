@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <type_traits>
 
 namespace listric::dem {
 
@@ -48,12 +49,17 @@ inline double slip_rate_on(const Foot& foot, Point wall_velocity, const BaseCont
            (disc.vx - wall_velocity.x) * foot.normal.y - disc.spin * foot.distance;
 }
 
+/// Stands for the memory of rolling, a moment in N m, where nothing resists it, at no cost.
+struct FreeRolling {};
+template <class Rolling> inline constexpr bool rolls = !std::is_same_v<Rolling, FreeRolling>;
+
 /// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
-/// Updates the shear force.
-inline BaseContactForce surface_force(const Surface& surface, const BaseInstant& now,
-                                      const Foot& foot, Point wall_velocity,
-                                      const BaseContactDisc& disc, ContactParameters parameters,
-                                      double& shear_force) {
+/// Updates the shear force and the moment against rolling; surfaces do not turn.
+template <class Rolling>
+BaseContactForce surface_force(const Surface& surface, const BaseInstant& now, const Foot& foot,
+                               Point wall_velocity, const BaseContactDisc& disc,
+                               ContactParameters parameters, double& shear_force,
+                               [[maybe_unused]] Rolling& rolling) {
     const double nx = foot.normal.x, ny = foot.normal.y;
     const double slip_rate = slip_rate_on(foot, wall_velocity, disc);
     const auto friction = static_cast<float>(friction_of(surface, now));
@@ -63,8 +69,14 @@ inline BaseContactForce surface_force(const Surface& surface, const BaseInstant&
     std::uint8_t bonded = 0;
     const double normal = contact_force(disc.radius - foot.distance, slip_rate, parameters, 0.0f,
                                         0.0f, shear_force, bonded);
-    return {normal * nx - shear_force * ny, normal * ny + shear_force * nx,
-            -(foot.distance * shear_force)};
+    BaseContactForce force{normal * nx - shear_force * ny, normal * ny + shear_force * nx,
+                           -(foot.distance * shear_force)};
+    if constexpr (rolls<Rolling>) {
+        parameters.rolling_friction = std::min(parameters.rolling_friction, parameters.friction);
+        rolling = rolling_moment(rolling, disc.spin, disc.radius, normal, parameters);
+        force.moment += rolling;
+    }
+    return force;
 }
 
 /// Speed along the chain of a surface's material at x, in units of the extension speed.
@@ -106,19 +118,21 @@ base_contact_motion(const Surface& surface, const BaseInstant& now, const BaseCo
 }
 
 /// Force of one rigid surface on one disc; both cycles use it. `parameters` are the stiffness of
-/// surface and disc in series. Updates the shear force.
-inline BaseContactForce base_contact_force(const Surface& surface, const BaseInstant& now,
-                                           const BaseContactDisc& disc,
-                                           ContactParameters parameters, double& shear_force) {
+/// surface and disc in series. Updates the shear force and the moment against rolling.
+template <class Rolling>
+BaseContactForce base_contact_force(const Surface& surface, const BaseInstant& now,
+                                    const BaseContactDisc& disc, ContactParameters parameters,
+                                    double& shear_force, Rolling& rolling) {
     const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
     if (!foot || foot->distance >= disc.radius) {
         shear_force = 0.0;
+        rolling = {};
         return {0.0, 0.0, 0.0};
     }
     return surface_force(
         surface, now, *foot,
         surface_velocity(surface, now, disc.x, x_of_foot(*foot, disc), foot->normal), disc,
-        parameters, shear_force);
+        parameters, shear_force, rolling);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -176,21 +190,24 @@ inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
     return BaseContactMotion{*motion.foot, slip_rate_on(*motion.foot, velocity, disc)};
 }
 
-/// The force of a surface that deforms; updates shear force and place.
-inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
-                                           const BaseInstant& now, const BaseContactDisc& disc,
-                                           ContactParameters parameters, double& shear_force,
-                                           double& place) {
+/// The force of a surface that deforms; updates shear force, moment against rolling and place. The
+/// moment loads no node.
+template <class Rolling>
+NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
+                                    const BaseInstant& now, const BaseContactDisc& disc,
+                                    ContactParameters parameters, double& shear_force,
+                                    double& place, Rolling& rolling) {
     const NodeContactMotion motion =
         node_contact_motion(surface, nodes, now.extension, disc, place);
     if (!motion.foot || motion.foot->distance >= disc.radius) {
         shear_force = 0.0;
+        rolling = {};
         return {};
     }
     const Point runs = surface_velocity(surface, now, disc.x, motion.x, motion.foot->normal);
     const BaseContactForce force = surface_force(
         surface, now, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
-        parameters, shear_force);
+        parameters, shear_force, rolling);
     return {force, motion.node, motion.weight};
 }
 

@@ -5,6 +5,7 @@
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/rolling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +20,11 @@ double normal_energy(double before, double now, bool bonded, const ContactParame
     return 0.5 * static_cast<double>(p.normal_stiffness) * pressed * now;
 }
 
-/// Energy of a shear spring that the next slip would bring from `force` elsewhere, N.
-double shear_energy(double force, double slip_rate, const ContactParameters& p, double time_step) {
+/// Energy of a spring that the next slip, m/s, would bring from `force` elsewhere, N; or rolling,
+/// rad/s, from a moment, N m.
+double shear_energy(double force, double slip_rate, double stiffness_times_step, double time_step) {
     if (force == 0.0)
         return 0.0;
-    const double stiffness_times_step = static_cast<double>(p.shear_stiffness_times_step);
     return 0.5 * force * (force - stiffness_times_step * slip_rate) * time_step /
            stiffness_times_step;
 }
@@ -38,6 +39,8 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
     const double dt = clock.time_step;
     const Pushes pushes(state);
     const RadiusRates radii(state);
+    const auto rolling = rolling_moments(state.contacts),
+               base_rolling = rolling_moments(state.base_contacts);
     StoredEnergy energy;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
@@ -65,7 +68,12 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const double slip_rate = (dvy * dx - dvx * dy) / distance -
                                  (d.radius[i] - 0.5 * now) * d.spin[i] -
                                  (d.radius[j] - 0.5 * now) * d.spin[j];
-        energy.shear_strain += shear_energy(c.shear_force[k], slip_rate, p, dt);
+        energy.shear_strain += shear_energy(
+            c.shear_force[k], slip_rate, static_cast<double>(p.shear_stiffness_times_step), dt);
+        if (!rolling.empty())
+            energy.shear_strain += shear_energy(
+                rolling[k], d.spin[j] - d.spin[i],
+                rolling_stiffness_times_step(p, d.radius[i] * d.radius[j] / reach), dt);
     }
 
     const BaseInstant instant = base_instant(base, clock);
@@ -100,7 +108,11 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
                 normal_energy(d.radius[i] - radii[i] * dt - foot_before->distance,
                               d.radius[i] - motion->foot.distance, false, p);
         energy.shear_strain +=
-            shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0, p, dt);
+            shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0,
+                         static_cast<double>(p.shear_stiffness_times_step), dt);
+        if (!base_rolling.empty())
+            energy.shear_strain += shear_energy(base_rolling[k], disc.spin,
+                                                rolling_stiffness_times_step(p, disc.radius), dt);
     }
     return energy;
 }

@@ -33,7 +33,7 @@ namespace listric::dem {
 struct EnergyFlows {
     double boundary_work = 0.0; ///< of base and walls on the discs, J/m
     double base_work = 0.0;     ///< of a base that deforms, by the motion of its nodes, J/m
-    double friction = 0.0;      ///< lost by slip, J/m
+    double friction = 0.0;      ///< lost by slip and by rolling, J/m
     double damping = 0.0;       ///< lost by local damping, J/m
     double bond_breaking = 0.0; ///< loss of the springs' energy when bonds broke, J/m
     double stepping = 0.0;      ///< lost by contacts that close or open within a step, J/m
@@ -54,7 +54,7 @@ struct EnergyFlows {
 /// Energy of a state.
 struct StoredEnergy {
     double kinetic = 0.0;                           ///< J/m
-    double normal_strain = 0.0, shear_strain = 0.0; ///< of contacts, J/m
+    double normal_strain = 0.0, shear_strain = 0.0; ///< of contacts; rolling is shear, J/m
     double potential = 0.0;                         ///< of the discs' weight, against y = 0, J/m
     double push_potential = 0.0;                    ///< of their pushes, against the origin, J/m
 
@@ -72,14 +72,13 @@ inline double normal_loss(double pressed_before, double before, double pressed, 
 /// Energies between the last cycle and the next. `gravity` in m/s^2.
 StoredEnergy stored_energy(const State& state, const RigidBase& base, double gravity);
 
-/// Loss of a shear spring of stiffness K_s that slip has brought from `before` not to `trial`, but
-/// to `after`, N.
-inline double slip_loss(double before, double trial, double after, const ContactParameters& p,
+/// Loss of a spring that slip has brought from `before` not to `trial`, but to `after`, N; or
+/// rolling, N m. Stiffness times step, N s/m or N m s.
+inline double slip_loss(double before, double trial, double after, double stiffness_times_step,
                         double time_step) {
     if (trial == after)
         return 0.0;
-    return 0.5 * (before + after) * (trial - after) * time_step /
-           static_cast<double>(p.shear_stiffness_times_step);
+    return 0.5 * (before + after) * (trial - after) * time_step / stiffness_times_step;
 }
 
 } // namespace listric::dem

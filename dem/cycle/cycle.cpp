@@ -3,6 +3,7 @@
 #include "dem/cycle/fast_cycle.hpp"
 #include "dem/cycle/plain_cycle.hpp"
 #include "dem/cycle/surroundings.hpp"
+#include "dem/rolling.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <cassert>
@@ -18,6 +19,8 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
                                     ", at least 0, and Clock::time_step is " +
                                     std::to_string(state.clock.time_step) + " s, above 0");
     const Team team(execution.threads);
+    if (add_rolling(state) && execution.packed)
+        execution.packed->forget();
     Surroundings nothing;
     if (execution.energy || execution.cycle == Cycle::plain) {
         if (execution.packed)

@@ -20,25 +20,39 @@ namespace listric::dem {
 
 using namespace fast;
 
-void FastCycle::compute_base(Strip& strip, const BaseInstant& now) {
-    for (BaseContact& contact : strip.base_contacts) {
+template <class Rolling> void FastCycle::compute_base(Strip& strip, const BaseInstant& now) {
+    for (std::size_t k = 0; k < strip.base_contacts.size(); ++k) {
+        BaseContact& contact = strip.base_contacts[k];
+        Rolling moment{};
+        if constexpr (rolls<Rolling>)
+            moment = strip.base_rolling[k];
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         const BaseContactForce f = base_contact_force(
             *contact.surface, now,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
-            contact.parameters, contact.shear_force);
+            contact.parameters, contact.shear_force, moment);
+        if constexpr (rolls<Rolling>)
+            strip.base_rolling[k] = moment;
         slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
     }
 }
 
+template <class Rolling>
 void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, const BaseInstant& now) {
-    for (NodeContact& node_contact : strip.node_contacts) {
+    for (std::size_t k = 0; k < strip.node_contacts.size(); ++k) {
+        NodeContact& node_contact = strip.node_contacts[k];
         BaseContact& contact = node_contact.contact;
+        Rolling moment{};
+        if constexpr (rolls<Rolling>)
+            moment = strip.node_rolling[k];
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         node_contact.force = node_contact_force(
             *contact.surface, nodes, now,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
-            contact.parameters, contact.shear_force, node_contact.place);
+            contact.parameters, contact.shear_force, node_contact.place,
+            moment);
+        if constexpr (rolls<Rolling>)
+            strip.node_rolling[k] = moment;
         const BaseContactForce& f = node_contact.force.force;
         slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
     }
@@ -222,7 +236,8 @@ private:
         const BaseInstant now = base_instant(motion, clock_.extension.m);
         for_free_strips([&](Strip& strip) {
             if (fast_.deforms_)
-                fast_.compute_nodes(strip, piece_.nodes, now);
+                fast_.rolls_ ? fast_.compute_nodes<double>(strip, piece_.nodes, now)
+                             : fast_.compute_nodes<FreeRolling>(strip, piece_.nodes, now);
             piece_.kernels.compute_boundary(piece_.shared, strip);
         });
         piece_.barrier.wait();
@@ -241,7 +256,8 @@ private:
             for_free_strips([&](Strip& strip) {
                 if (strip.sends != that_send)
                     return;
-                fast_.compute_base(strip, now);
+                fast_.rolls_ ? fast_.compute_base<double>(strip, now)
+                             : fast_.compute_base<FreeRolling>(strip, now);
                 const Kernels& kernels =
                     strip.has_ghosts ? piece_.kernels_with_ghosts : piece_.kernels;
                 mine = greater(mine, (kernels.*sweep)(piece_.shared, strip, thins));
@@ -309,9 +325,8 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
                 .response = response,
                 .around = around,
                 .halo = around.halo(),
-                .kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), false),
-                .kernels_with_ghosts =
-                    choose_kernels(level_, bonded_, frictional_, damped_against(), true),
+                .kernels = choose_kernels(level_, law(), damped_against(), false),
+                .kernels_with_ghosts = choose_kernels(level_, law(), damped_against(), true),
                 .shared = {discs_, inertia_, slots_.data(), time_step_, physics_.damping,
                            averaging_interval * time_step_ / physics_.averaging_time,
                            own_.empty() ? nullptr : own_.data()},

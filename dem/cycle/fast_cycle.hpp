@@ -33,7 +33,7 @@ namespace listric::dem {
 // - Records, blocks and lists are fetched ahead. The processor foresees streams, but not soon
 //   enough once they come from beyond its caches: 1.6 times the speed at 100,000 discs. It needs
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
-// - Scenes without bonds or friction run cycles compiled without them.
+// - Scenes without bonds, friction or resistance to rolling run cycles compiled without them.
 
 class Surroundings;
 struct Halo;
@@ -111,8 +111,10 @@ private:
     void pack_gathers(const State& state, fast::Strip& strip);
     void unpack(const fast::Strip& strip, State& state) const;
 
-    void compute_base(fast::Strip& strip, const BaseInstant& now);
+    template <class Rolling> void compute_base(fast::Strip& strip, const BaseInstant& now);
+    template <class Rolling>
     void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, const BaseInstant& now);
+    fast::ContactLaw law() const { return {bonded_, frictional_ || rolls_, rolls_}; }
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
                      BaseResponse* response, Surroundings& around);
     fast::DampedAgainst damped_against() const;
@@ -132,6 +134,7 @@ private:
     AlignedVector<fast::Slot> slots_;
     std::vector<fast::Strip> strips_;
     bool bonded_ = false, frictional_ = false; ///< whether any contact is
+    bool rolls_ = false;                       ///< whether contacts resist rolling
     bool deforms_ = false;                     ///< whether the base has nodes
     double fastest_node_[2] = {0.0, 0.0};      ///< in even and in odd cycles, m/s
     double displacement_ = 0.0;                ///< the greatest, as it was measured last, m

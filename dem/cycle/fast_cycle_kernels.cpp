@@ -57,15 +57,15 @@ namespace v4 {
 
 #endif
 
-Kernels choose_kernels([[maybe_unused]] Cycle level, bool bonded, bool frictional,
-                       DampedAgainst motion, bool has_ghosts) {
+Kernels choose_kernels([[maybe_unused]] Cycle level, ContactLaw law, DampedAgainst motion,
+                       bool has_ghosts) {
 #if defined __x86_64__
     if (level == Cycle::v4)
-        return v4::choose_kernels(bonded, frictional, motion, has_ghosts);
+        return v4::choose_kernels(law, motion, has_ghosts);
     if (level == Cycle::v3)
-        return v3::choose_kernels(bonded, frictional, motion, has_ghosts);
+        return v3::choose_kernels(law, motion, has_ghosts);
 #endif
-    return baseline::choose_kernels(bonded, frictional, motion, has_ghosts);
+    return baseline::choose_kernels(law, motion, has_ghosts);
 }
 
 } // namespace listric::dem::fast

@@ -12,6 +12,11 @@ namespace listric::dem::fast {
 /// Velocity against which a disc's velocity is damped; with or without a sample for the mean.
 enum class DampedAgainst { rest, mean_motion, mean_motion_sampled, stretching };
 
+/// What the contacts of a packing may have. Those that resist rolling have friction.
+struct ContactLaw {
+    bool bonded, frictional, rolls;
+};
+
 /// Data that all strips share.
 struct Shared {
     std::span<Disc> discs;
@@ -33,9 +38,9 @@ struct Kernels {
     double (*resting_sweep)(const Shared& shared, Strip& strip, Stretching thins);
 };
 
-/// The cycle is compiled for contacts with and without bonds and friction, and chosen when contacts
-/// are packed: bonds never form within a cycle. Ghosts of other ranks count in no maximum.
-Kernels choose_kernels(Cycle level, bool bonded, bool frictional, DampedAgainst motion,
-                       bool has_ghosts);
+/// The cycle is compiled for contacts with and without bonds, friction and resistance to rolling,
+/// and chosen when contacts are packed: bonds never form within a cycle. Ghosts of other ranks count
+/// in no maximum.
+Kernels choose_kernels(Cycle level, ContactLaw law, DampedAgainst motion, bool has_ghosts);
 
 } // namespace listric::dem::fast

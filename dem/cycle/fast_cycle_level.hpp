@@ -146,10 +146,11 @@ struct Pairs {
 }
 
 /// The contact law of law.hpp and plain_cycle.cpp.
-template <bool bonded, bool frictional>
+template <ContactLaw law>
 [[gnu::always_inline]] inline void compute(Block& block, int start, const Pairs& pairs,
-                                           [[maybe_unused]] const double* discs, Slot* slots) {
-    constexpr bool shears = bonded || frictional;
+                                           [[maybe_unused]] const double* discs, Slot* slots,
+                                           [[maybe_unused]] Rolling* rolling) {
+    constexpr bool shears = law.bonded || law.frictional;
 #if LISTRIC_LEVEL >= 4
     const auto [dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j, square, distance, inverse] =
         pairs;
@@ -168,6 +169,7 @@ template <bool bonded, bool frictional>
 
     Mask holds = {}; // the bond
     Lanes shear = zero;
+    [[maybe_unused]] Lanes moment = zero; // against rolling
     if constexpr (shears) {
 #if LISTRIC_LEVEL < 4
         const auto [dvx, dvy, spin_i, spin_j] =
@@ -176,13 +178,13 @@ template <bool bonded, bool frictional>
         const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
         const Lanes stuck = load(block.shear_force + start) -
                             load(block.shear_stiffness_times_step + start) * slip_rate;
-        if constexpr (frictional) {
+        if constexpr (law.frictional) {
             const Lanes limit = load(block.friction + start) * elastic;
             const Lanes raised = stuck < -limit ? -limit : stuck;
             const Lanes clipped = limit < raised ? limit : raised;
             shear = (pressed & (limit > zero)) ? clipped : zero;
         }
-        if constexpr (bonded) {
+        if constexpr (law.bonded) {
             const Lanes tensile_strength = load(block.tensile_strength + start);
             holds = (-elastic <= tensile_strength) &
                     (magnitude(stuck) <= load(block.shear_strength + start));
@@ -194,25 +196,46 @@ template <bool bonded, bool frictional>
                     if (lost[k] > static_cast<double>(not_bonded))
                         block.tensile_strength[start + k] = not_bonded;
         }
+        if constexpr (law.rolls) {
+            const Lanes lever = radius_i * radius_j / reach;
+            const Lanes turned = load(rolling->moment + start) -
+                                 load(block.shear_stiffness_times_step + start) *
+                                     (lever * lever) * (spin_j - spin_i);
+            const Lanes limit = load(rolling->friction + start) * lever * elastic;
+            const Lanes raised = turned < -limit ? -limit : turned;
+            const Lanes clipped = limit < raised ? limit : raised;
+            moment = (pressed & ~holds & (limit > zero)) ? clipped : zero;
+            store(rolling->moment + start, moment);
+        }
     }
     const Lanes normal = (holds | pressed) ? elastic : zero;
     store(block.shear_force + start, shear);
 
-    store_rows(
-        reinterpret_cast<double*>(slots + block.slot) + start,
-        {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)});
+    Lanes moment_i = arm_i * shear, moment_j = -(arm_j * shear);
+    if constexpr (law.rolls) {
+        moment_i += moment;
+        moment_j += moment;
+    }
+    store_rows(reinterpret_cast<double*>(slots + block.slot) + start,
+               {normal * nx - shear * ny, normal * ny + shear * nx, moment_i, moment_j});
 }
 
 /// Computes contacts whose slots nothing else reads or writes meanwhile. Eight lanes begin a block
 /// before the law of the one before it, which then waits for neither root nor quotient; four have
 /// too few registers for it.
-template <bool bonded, bool frictional>
+template <ContactLaw law>
 void compute_blocks(const Shared& shared, Blocks& blocks, std::size_t begin, std::size_t end) {
     const double* const discs = reinterpret_cast<const double*>(shared.discs.data());
     Block* block = blocks.blocks.data() + begin;
     Block* const last = blocks.blocks.data() + end;
     // It does no harm to ask for memory beyond the end.
     const auto fetch_later_block = [&block] { prefetch(block + 16, sizeof(Block)); };
+    const auto rolling_of = [&]([[maybe_unused]] const Block* of) -> Rolling* {
+        if constexpr (law.rolls)
+            return blocks.rolling.data() + (of - blocks.blocks.data());
+        else
+            return nullptr;
+    };
     if constexpr (lane_count == 8) {
         if (block == last)
             return;
@@ -220,22 +243,22 @@ void compute_blocks(const Shared& shared, Blocks& blocks, std::size_t begin, std
         for (; block + 1 != last; ++block) {
             fetch_later_block();
             const Pairs next = pairs_of(block[1], 0, discs);
-            compute<bonded, frictional>(*block, 0, pairs, discs, shared.slots);
+            compute<law>(*block, 0, pairs, discs, shared.slots, rolling_of(block));
             pairs = next;
         }
-        compute<bonded, frictional>(*block, 0, pairs, discs, shared.slots);
+        compute<law>(*block, 0, pairs, discs, shared.slots, rolling_of(block));
     } else {
         for (; block != last; ++block) {
             fetch_later_block();
             for (int start = 0; start < 8; start += lane_count)
-                compute<bonded, frictional>(*block, start, pairs_of(*block, start, discs), discs,
-                                            shared.slots);
+                compute<law>(*block, start, pairs_of(*block, start, discs), discs, shared.slots,
+                             rolling_of(block));
         }
     }
 }
 
-template <bool bonded, bool frictional> void compute_boundary(const Shared& shared, Strip& strip) {
-    compute_blocks<bonded, frictional>(shared, strip.boundary, 0, strip.boundary.blocks.size());
+template <ContactLaw law> void compute_boundary(const Shared& shared, Strip& strip) {
+    compute_blocks<law>(shared, strip.boundary, 0, strip.boundary.blocks.size());
 }
 
 /// Adds slots to the forces of a group, `each` of every disc, or takes them off; goes on in the
@@ -250,7 +273,7 @@ template <int sign>
         }
 }
 
-template <bool bonded, bool frictional, DampedAgainst motion, bool has_ghosts>
+template <ContactLaw law, DampedAgainst motion, bool has_ghosts>
 double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     const Lanes no_force = {};
     const Lanes damping = no_force + shared.damping;
@@ -270,7 +293,7 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     const std::uint32_t* list = gathers.data();
     std::size_t block = 0, group = strip.first_disc / group_discs;
     for (const Tile& tile : strip.tiles) {
-        compute_blocks<bonded, frictional>(shared, strip.inner, block, tile.end_block);
+        compute_blocks<law>(shared, strip.inner, block, tile.end_block);
         block = tile.end_block;
         for (; group < tile.end_group; ++group) {
             const std::size_t first = group * group_discs;
@@ -328,29 +351,31 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     return greatest;
 }
 
-template <bool bonded, bool frictional, bool has_ghosts> Kernels kernels_of(DampedAgainst motion) {
+template <ContactLaw law, bool has_ghosts> Kernels kernels_of(DampedAgainst motion) {
     using enum DampedAgainst;
-    const auto boundary = &compute_boundary<bonded, frictional>;
+    const auto boundary = &compute_boundary<law>;
     if (motion == mean_motion)
-        return {boundary, &sweep<bonded, frictional, mean_motion, has_ghosts>,
-                &sweep<bonded, frictional, mean_motion_sampled, has_ghosts>,
-                &sweep<bonded, frictional, rest, has_ghosts>};
-    const auto any = motion == stretching ? &sweep<bonded, frictional, stretching, has_ghosts>
-                                          : &sweep<bonded, frictional, rest, has_ghosts>;
+        return {boundary, &sweep<law, mean_motion, has_ghosts>,
+                &sweep<law, mean_motion_sampled, has_ghosts>, &sweep<law, rest, has_ghosts>};
+    const auto any = motion == stretching ? &sweep<law, stretching, has_ghosts>
+                                          : &sweep<law, rest, has_ghosts>;
     return {boundary, any, any, any};
 }
 
-template <bool bonded, bool frictional> Kernels kernels_of(DampedAgainst motion, bool has_ghosts) {
-    return has_ghosts ? kernels_of<bonded, frictional, true>(motion)
-                      : kernels_of<bonded, frictional, false>(motion);
+template <ContactLaw law> Kernels kernels_of(DampedAgainst motion, bool has_ghosts) {
+    return has_ghosts ? kernels_of<law, true>(motion) : kernels_of<law, false>(motion);
 }
 
-inline Kernels choose_kernels(bool bonded, bool frictional, DampedAgainst motion, bool has_ghosts) {
-    if (bonded)
-        return frictional ? kernels_of<true, true>(motion, has_ghosts)
-                          : kernels_of<true, false>(motion, has_ghosts);
-    return frictional ? kernels_of<false, true>(motion, has_ghosts)
-                      : kernels_of<false, false>(motion, has_ghosts);
+template <bool bonded> Kernels kernels_of(ContactLaw law, DampedAgainst motion, bool has_ghosts) {
+    if (law.rolls)
+        return kernels_of<ContactLaw{bonded, true, true}>(motion, has_ghosts);
+    return law.frictional ? kernels_of<ContactLaw{bonded, true, false}>(motion, has_ghosts)
+                          : kernels_of<ContactLaw{bonded, false, false}>(motion, has_ghosts);
+}
+
+inline Kernels choose_kernels(ContactLaw law, DampedAgainst motion, bool has_ghosts) {
+    return law.bonded ? kernels_of<true>(law, motion, has_ghosts)
+                      : kernels_of<false>(law, motion, has_ghosts);
 }
 
 } // namespace

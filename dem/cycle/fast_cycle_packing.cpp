@@ -7,6 +7,7 @@
 #include "dem/law.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/rolling.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -166,6 +167,7 @@ void FastCycle::pack_searched_places(const State& state) {
 }
 
 void FastCycle::pack_contacts(const State& state) {
+    rolls_ = resists_rolling(state);
     slot_of_.resize(state.contacts.rows());
     base_slot_of_.resize(state.base_contacts.rows());
     const std::span<const std::int32_t> first = contact_columns(state).first;
@@ -202,6 +204,7 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     const PairParameters pairs(state.materials, time_step_);
+    const auto rolling = rolling_moments(state.contacts);
     const auto numbers = [](auto disc) {
         return static_cast<std::uint32_t>(disc_numbers * static_cast<std::size_t>(disc));
     };
@@ -216,6 +219,8 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
             std::ranges::fill(block.first, numbers(idle));
             std::ranges::fill(block.second, numbers(idle + 1));
             to.rows.resize(to.rows.size() + 8, -1);
+            if (rolls_)
+                to.rolling.emplace_back();
         }
         Block& block = to.blocks.back();
         const ContactParameters& p = pairs(d.material[static_cast<std::size_t>(c.first[row])],
@@ -226,6 +231,10 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
         block.friction[lane] = p.friction;
         block.tensile_strength[lane] = c.bonded[row] ? c.tensile_strength[row] : not_bonded;
         block.shear_strength[lane] = c.shear_strength[row];
+        if (rolls_) {
+            to.rolling.back().moment[lane] = rolling[row];
+            to.rolling.back().friction[lane] = p.rolling_friction;
+        }
         furthest = std::max(furthest, c.second[row] - c.first[row]);
         strip.bonded |= c.bonded[row] != 0;
         strip.frictional |= p.friction > 0.0f;
@@ -238,7 +247,9 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
     const std::size_t blocks = (strip.end_row - strip.first_row) / 8 + tiles;
     clear_for(strip.inner.blocks, blocks);
     clear_for(strip.inner.rows, 8 * blocks);
+    clear_for(strip.inner.rolling, rolls_ ? blocks : 0);
     strip.boundary.blocks.clear();
+    strip.boundary.rolling.clear();
     strip.boundary.rows.clear();
     strip.tiles.clear();
     std::size_t boundary_lane = 0;
@@ -296,6 +307,9 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
     strip.base_contacts.clear();
     strip.base_rows.clear();
     strip.node_contacts.clear();
+    strip.base_rolling.clear();
+    strip.node_rolling.clear();
+    const auto rolling = rolling_moments(state.base_contacts);
     std::size_t slot = strip.first_slot + strip.ring + 8 * strip.boundary.blocks.size();
     for (std::size_t row = strip.first_base_row; row < strip.end_base_row; ++row, ++slot) {
         base_slot_of_[row] = static_cast<std::uint32_t>(slot);
@@ -306,7 +320,10 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
                 base_->material, state.materials[d.material[static_cast<std::size_t>(b.disc[row])]],
                 time_step_),
             b.shear_force[row], static_cast<std::uint32_t>(slot)};
-        if (deforms_ && surface.follows != Follows::nothing) {
+        const bool on_nodes = deforms_ && surface.follows != Follows::nothing;
+        if (rolls_)
+            (on_nodes ? strip.node_rolling : strip.base_rolling).push_back(rolling[row]);
+        if (on_nodes) {
             strip.node_contacts.push_back({contact, row, places[row], {}});
         } else {
             strip.base_contacts.push_back(contact);
@@ -417,6 +434,7 @@ void FastCycle::unpack(const Strip& strip, State& state) const {
     const ContactColumns c = contact_columns(state);
     const BaseContactColumns b = base_contact_columns(state);
     const auto places = deforms_ ? state.base_contacts.get(columns::place) : std::span<double>();
+    const std::span<double> rolling = rolling_moments(state.contacts);
     for (const Blocks* from : {&strip.inner, &strip.boundary})
         for (std::size_t lane = 0; lane < from->rows.size(); ++lane)
             if (from->rows[lane] >= 0) {
@@ -424,6 +442,8 @@ void FastCycle::unpack(const Strip& strip, State& state) const {
                 const Block& block = from->blocks[lane / 8];
                 c.shear_force[k] = block.shear_force[lane % 8];
                 c.bonded[k] = block.tensile_strength[lane % 8] > not_bonded;
+                if (rolls_)
+                    rolling[k] = from->rolling[lane / 8].moment[lane % 8];
             }
     for (std::size_t k = 0; k < strip.base_contacts.size(); ++k)
         b.shear_force[strip.base_rows[k]] = strip.base_contacts[k].shear_force;
@@ -431,6 +451,13 @@ void FastCycle::unpack(const Strip& strip, State& state) const {
         b.shear_force[node_contact.row] = node_contact.contact.shear_force;
         places[node_contact.row] = node_contact.place;
     }
+    if (!rolls_)
+        return;
+    const std::span<double> base_rolling = rolling_moments(state.base_contacts);
+    for (std::size_t k = 0; k < strip.base_contacts.size(); ++k)
+        base_rolling[strip.base_rows[k]] = strip.base_rolling[k];
+    for (std::size_t k = 0; k < strip.node_contacts.size(); ++k)
+        base_rolling[strip.node_contacts[k].row] = strip.node_rolling[k];
 }
 
 } // namespace listric::dem

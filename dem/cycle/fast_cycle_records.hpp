@@ -41,6 +41,12 @@ struct alignas(64) Block {
     std::uint32_t slot;                ///< of the first contact; the others follow
 };
 
+/// Memory of the contacts of a block that resist rolling.
+struct alignas(32) Rolling {
+    double moment[8];  ///< N m
+    float friction[8]; ///< mu_r
+};
+
 struct BaseContact {
     std::int32_t disc;
     const Surface* surface;
@@ -60,6 +66,7 @@ struct NodeContact {
 /// Contacts, eight at a time.
 struct Blocks {
     AlignedVector<Block> blocks;
+    AlignedVector<Rolling> rolling; ///< of each block; empty where nothing resists it
     std::vector<std::int32_t> rows; ///< of the contact table by lane; -1: idle
 };
 
@@ -84,6 +91,8 @@ struct Strip {
     std::vector<BaseContact> base_contacts;  ///< with rigid surfaces
     std::vector<std::size_t> base_rows;      ///< of the table
     std::vector<NodeContact> node_contacts;
+    /// Moments against rolling of the two, N m; empty where nothing resists it.
+    std::vector<double> base_rolling, node_rolling;
     std::vector<Tile> tiles;
     std::size_t look_ahead = 0;           ///< discs between the one that moves and those fetched
     AlignedVector<std::uint32_t> gathers; ///< see FastCycle::pack_gathers

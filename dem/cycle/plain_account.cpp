@@ -34,13 +34,14 @@ void PlainAccount::enter(const BaseContact& contact) {
     const Motion& base = base_.motion;
     const double dt = clock.time_step, time = clock.time();
     const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
+    const auto stiffness_times_step = static_cast<double>(p.shear_stiffness_times_step);
     if (!motion) {
-        flows_.friction += slip_loss(before, before, after, p, dt);
+        flows_.friction += slip_loss(before, before, after, stiffness_times_step, dt);
         return;
     }
     const double trial =
-        before - static_cast<double>(p.shear_stiffness_times_step) * motion->slip_rate;
-    flows_.friction += slip_loss(before, trial, after, p, dt);
+        before - stiffness_times_step * motion->slip_rate;
+    flows_.friction += slip_loss(before, trial, after, stiffness_times_step, dt);
 
     // The step before this force and the one after it. Slip knows the speed of the base a step
     // later.

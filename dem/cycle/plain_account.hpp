@@ -32,6 +32,14 @@ public:
     void enter_contact(std::size_t k, const ContactParameters& p, bool was_bonded,
                        double shear_before, double normal);
 
+    /// Enters what a contact loses as its moment against rolling goes from `before` to `after`.
+    void enter_rolling(double before, double after, double roll_rate, double lever,
+                       const ContactParameters& p) {
+        const double stiffness_times_step = rolling_stiffness_times_step(p, lever);
+        flows_.friction += slip_loss(before, before - stiffness_times_step * roll_rate, after,
+                                     stiffness_times_step, state_.clock.time_step);
+    }
+
     /// Enters what damping takes from disc i, whose velocity and spin were `before`.
     /// @param all  forces but damping
     /// @param net  forces with damping
@@ -65,6 +73,7 @@ struct NoAccount {
     template <class... Any> void enter_base_contact(Any&&...) {}
     template <class... Any> void enter_node_contact(Any&&...) {}
     template <class... Any> void enter_contact(Any&&...) {}
+    template <class... Any> void enter_rolling(Any&&...) {}
     template <class... Any> void enter_motion(Any&&...) {}
     void enter_half_step() {}
 };
@@ -98,10 +107,10 @@ inline void PlainAccount::enter_contact(std::size_t k, const ContactParameters& 
     if (shear_before == 0.0 && after == 0.0)
         return;
     const double slip_rate = pair_of(d_, i, j, dx, dy, square).slip_rate;
-    const double trial =
-        shear_before - static_cast<double>(p.shear_stiffness_times_step) * slip_rate;
+    const auto stiffness_times_step = static_cast<double>(p.shear_stiffness_times_step);
+    const double trial = shear_before - stiffness_times_step * slip_rate;
     (was_bonded && !c_.bonded[k] ? flows_.bond_breaking : flows_.friction) +=
-        slip_loss(shear_before, trial, after, p, time_step);
+        slip_loss(shear_before, trial, after, stiffness_times_step, time_step);
 }
 
 inline void PlainAccount::enter_motion(std::size_t i, const Force& all, const Force& net,

@@ -10,6 +10,7 @@
 #include "dem/numbers/order_free.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/rolling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ namespace listric::dem {
 namespace {
 
 /// Forces of the base on the discs, which also starts their sum with the pushes.
-template <class Account>
+template <class Rolling, class Account>
 void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account& account) {
     const DiscColumns d = disc_columns(state);
     const BaseContactColumns c = base_contact_columns(state);
@@ -34,6 +35,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
     const BaseInstant now = base_instant(base, state.clock);
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();
+    const std::span<double> rolling = rolling_moments(state.base_contacts);
     const auto places = deforms ? state.base_contacts.get(columns::place) : std::span<double>();
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
@@ -42,16 +44,23 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
         const ContactParameters p = base_contact_parameters(
             base.material, state.materials[d.material[i]], state.clock.time_step);
         const double shear_before = c.shear_force[k];
+        Rolling moment{};
+        if constexpr (rolls<Rolling>)
+            moment = rolling[k];
         BaseContactForce f;
         if (deforms && surface.follows != Follows::nothing) {
             const NodeContactForce on_nodes =
-                node_contact_force(surface, nodes, now, disc, p, c.shear_force[k], places[k]);
+                node_contact_force(surface, nodes, now, disc, p, c.shear_force[k], places[k], moment);
             add_load(nodes, on_nodes, surface.degree);
             f = on_nodes.force;
             account.enter_node_contact(k, disc, p, shear_before, on_nodes);
         } else {
-            f = base_contact_force(surface, now, disc, p, c.shear_force[k]);
+            f = base_contact_force(surface, now, disc, p, c.shear_force[k], moment);
             account.enter_base_contact(k, disc, p, shear_before, f);
+        }
+        if constexpr (rolls<Rolling>) {
+            account.enter_rolling(rolling[k], moment, disc.spin, disc.radius, p);
+            rolling[k] = moment;
         }
         force[i].x += f.x;
         force[i].y += f.y;
@@ -59,12 +68,25 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
     }
 }
 
-/// Forces of discs that touch or are bonded on each other.
+/// Updates the moment of contact k against rolling, N m, which is on the second disc.
 template <class Account>
+void resist_rolling(const DiscColumns& d, const ContactColumns& c, std::size_t k, double normal,
+                    const ContactParameters& p, double& moment, Account& account) {
+    const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+    const double lever = d.radius[i] * d.radius[j] / (d.radius[i] + d.radius[j]);
+    const double roll_rate = d.spin[j] - d.spin[i];
+    const double before = moment;
+    moment = rolling_moment(before, roll_rate, lever, c.bonded[k] ? 0.0 : normal, p);
+    account.enter_rolling(before, moment, roll_rate, lever, p);
+}
+
+/// Forces of discs that touch or are bonded on each other.
+template <class Rolling, class Account>
 void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force,
                     Account& account) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
+    const std::span<double> rolling = rolling_moments(state.contacts);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),
                    j = static_cast<std::size_t>(c.second[k]);
@@ -74,25 +96,32 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
         const double shear_before = c.shear_force[k];
         const bool was_bonded = c.bonded[k];
         double normal = 0.0;
+        const ContactParameters& p = pairs(d.material[i], d.material[j]);
         if (square >= reach * reach && !was_bonded) {
             c.shear_force[k] = 0.0;
+            if constexpr (rolls<Rolling>)
+                resist_rolling(d, c, k, 0.0, p, rolling[k], account);
         } else {
             const Pair pair = pair_of(d, i, j, dx, dy, square);
-            normal = contact_force(pair.overlap, pair.slip_rate,
-                                   pairs(d.material[i], d.material[j]), c.tensile_strength[k],
+            normal = contact_force(pair.overlap, pair.slip_rate, p, c.tensile_strength[k],
                                    c.shear_strength[k], c.shear_force[k], c.bonded[k]);
             const double shear = c.shear_force[k];
             const double fx = normal * pair.nx - shear * pair.ny;
             const double fy = normal * pair.ny + shear * pair.nx;
+            double moment_i = -(pair.arm_i * shear), moment_j = -(pair.arm_j * shear);
+            if constexpr (rolls<Rolling>) {
+                resist_rolling(d, c, k, normal, p, rolling[k], account);
+                moment_i -= rolling[k];
+                moment_j += rolling[k];
+            }
             force[i].x -= fx;
             force[i].y -= fy;
-            force[i].moment -= pair.arm_i * shear;
+            force[i].moment += moment_i;
             force[j].x += fx;
             force[j].y += fy;
-            force[j].moment -= pair.arm_j * shear;
+            force[j].moment += moment_j;
         }
-        account.enter_contact(k, pairs(d.material[i], d.material[j]), was_bonded, shear_before,
-                              normal);
+        account.enter_contact(k, p, was_bonded, shear_before, normal);
     }
 }
 
@@ -173,8 +202,13 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
                      Surroundings& around, Account&& account) {
     Clock& clock = state.clock;
     const MotionInstant motion = base.motion.at(clock.time(), clock.travel);
-    base_forces(state, base, force, account);
-    contact_forces(state, pairs, force, account);
+    if (resists_rolling(state)) {
+        base_forces<double>(state, base, force, account);
+        contact_forces<double>(state, pairs, force, account);
+    } else {
+        base_forces<FreeRolling>(state, base, force, account);
+        contact_forces<FreeRolling>(state, pairs, force, account);
+    }
     const Stretching thins = stretching(base, clock.extension.m, motion.speed);
     const double disc_speed = move_discs(
         state, physics, {state, physics, thins, stops(base.motion, clock.travel)}, force, account);

@@ -2,6 +2,7 @@
 
 #include "dem/contacts/contacts.hpp"
 #include "dem/ranks/table_bytes.hpp"
+#include "dem/rolling.hpp"
 
 #include <utility>
 
@@ -59,7 +60,7 @@ Bytes RankedCycles::changed() {
 
 void RankedCycles::advance(State& whole, std::int64_t cycles, bool state_is_untouched,
                            BaseResponse* response) {
-    bool has_subdomains = state_is_untouched && halo_;
+    bool has_subdomains = !add_rolling(whole) && state_is_untouched && halo_;
     while (cycles > 0) {
         const Order order{Task::advance, !has_subdomains, response ? response->interval : 0,
                           cycles};

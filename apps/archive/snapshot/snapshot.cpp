@@ -183,6 +183,8 @@ void write_state(Hdf5Id file, const State& state) {
         const Material& m = state.materials[k];
         const Handle group = create_group(materials, std::to_string(k));
         for_each_property(m, writes_numbers(group));
+        if (m.rolling_friction != 0.0)
+            write_number(group, "rolling_friction", m.rolling_friction);
         if (k <= weak)
             continue;
         for_each_property_of_layer(m, writes_numbers(group));
@@ -226,6 +228,8 @@ State read_state(Hdf5Id file) {
         Material& m = state.materials[k];
         const Handle group = open_group(materials, std::to_string(k));
         for_each_property(m, reads_numbers(group));
+        if (has_attribute(group, "rolling_friction"))
+            m.rolling_friction = read_number<double>(group, "rolling_friction");
         if (k <= weak)
             continue;
         for_each_property_of_layer(m, reads_numbers(group));

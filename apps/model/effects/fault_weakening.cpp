@@ -87,6 +87,9 @@ std::vector<Parameter> weakened_parameters() {
          "Raising it from 0 to 0.2 lets deformation leave an old graben for a new one; 0.06 less "
          "of the strain stays in the most strained tenth.",
          between(0, 0.5)},
+        {"rolling_friction", at<&P::material, &Material::rolling_friction>, "", ranges::friction,
+         "mu_r", "resistance of weakened discs to rolling",
+         "Has an effect with friction, which it cannot exceed."},
         by_travel({"update_interval_a", at<&P::update_interval>, "a", ranges::interval, "",
                    "time between property updates",
                    "Lowering it keeps the volume of weak zones better (volume_error_fraction)."}),

@@ -71,6 +71,8 @@ std::vector<Parameter> parameters() {
          "shear stiffness of one disc, if not its material's", of_file},
         {"friction", at<&L::friction>, "", ranges::friction, "mu_d",
          "friction of a disc, if not its material's", of_file},
+        {"rolling_friction", at<&L::rolling_friction>, "", ranges::friction, "mu_r",
+         "resistance to rolling of unbonded contacts, if not its material's", of_file},
         {"tensile_strength_pa", strength<0>, "Pa", ranges::strength, "F_c^n",
          "mean tensile strength of its bonds, if not its material's; none of the four: no bonds",
          of_file},
@@ -92,6 +94,9 @@ std::vector<Parameter> parameters() {
          of_weak},
         {"weakened_friction", at<&L::weakened_friction>, "", ranges::friction, "",
          "friction when weakened; none: as of weakened rock of the hanging wall", of_weak},
+        {"weakened_rolling_friction", at<&L::weakened_rolling_friction>, "", ranges::friction, "",
+         "resistance to rolling when weakened; none: as of weakened rock of the hanging wall",
+         of_weak},
     };
 }
 
@@ -119,7 +124,8 @@ void refuse_idle(const Scene& scene, const L& layer, std::size_t item, const Ref
     const std::pair<std::string_view, bool> of_weak[] = {
         {"weakened_normal_stiffness_pa", layer.weakened_normal_stiffness.has_value()},
         {"weakened_shear_stiffness_pa", layer.weakened_shear_stiffness.has_value()},
-        {"weakened_friction", layer.weakened_friction.has_value()}};
+        {"weakened_friction", layer.weakened_friction.has_value()},
+        {"weakened_rolling_friction", layer.weakened_rolling_friction.has_value()}};
     const bool is_weakened = std::ranges::any_of(scene.effects, [](const EffectPart& part) {
         return part.effect->rock && part.effect->rock->key == "weakened";
     });
@@ -136,6 +142,8 @@ void take_material(Scene& scene, std::size_t item, const std::string& file, cons
     take(layer.normal_stiffness, rock.material.normal_stiffness);
     take(layer.shear_stiffness, rock.material.shear_stiffness);
     take(layer.friction, rock.material.friction);
+    if (rock.material.rolling_friction > 0.0)
+        take(layer.rolling_friction, rock.material.rolling_friction);
     if (!rock.bonds)
         return;
     take(layer.strength[0], rock.bonds->tensile_mean);
@@ -160,6 +168,8 @@ void take_weakened(Scene& scene, std::size_t item, const std::string& file, cons
     take(layer.weakened_normal_stiffness, rock.material.normal_stiffness);
     take(layer.weakened_shear_stiffness, rock.material.shear_stiffness);
     take(layer.weakened_friction, rock.material.friction);
+    if (rock.material.rolling_friction > 0.0)
+        take(layer.weakened_rolling_friction, rock.material.rolling_friction);
 }
 
 /// Why a point can be in no line of a layer; empty if it can.
@@ -386,6 +396,7 @@ void contribute(const Scene& scene, ModelParts& parts) {
     for (const L& layer : *scene.find<SceneLayers>()) {
         const auto index = static_cast<std::uint8_t>(parts.materials.size());
         dem::Material rock{*layer.normal_stiffness, *layer.shear_stiffness, *layer.friction};
+        rock.rolling_friction = layer.rolling_friction.value_or(0.0);
         rock.is_welded = layer.is_welded;
         rock.is_soft = is_soft(scene, layer);
         rock.bondable = layer.strength[0].has_value();
@@ -405,6 +416,7 @@ void contribute(const Scene& scene, ModelParts& parts) {
         weak.normal_stiffness = layer.weakened_normal_stiffness.value_or(weak.normal_stiffness);
         weak.shear_stiffness = layer.weakened_shear_stiffness.value_or(weak.shear_stiffness);
         weak.friction = layer.weakened_friction.value_or(weak.friction);
+        weak.rolling_friction = layer.weakened_rolling_friction.value_or(weak.rolling_friction);
         weak.weak_of = index;
         parts.materials.push_back(weak);
     }

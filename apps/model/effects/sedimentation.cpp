@@ -44,6 +44,9 @@ std::vector<Parameter> parameters() {
         {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
          "friction of sediment discs",
          "Raising it steepens slopes that loose sediment holds, and strengthens it under load."},
+        {"rolling_friction", at<&P::material, &Material::rolling_friction>, "", ranges::friction,
+         "mu_r", "resistance of sediment discs to rolling",
+         "Raising it steepens slopes beyond what friction alone holds."},
     };
 }
 

@@ -32,8 +32,8 @@ void read_whole_table(const Entry& entry, const std::vector<Parameter>& paramete
 } // namespace
 
 bool must_be_said(const Parameter& parameter) {
-    constexpr std::string_view have_defaults[] = {"strength_is", "permeability_law",
-                                                  "clay_fraction"};
+    constexpr std::string_view have_defaults[] = {"rolling_friction", "strength_is",
+                                                  "permeability_law", "clay_fraction"};
     return std::ranges::find(have_defaults, parameter.key) == std::end(have_defaults);
 }
 

@@ -30,8 +30,8 @@ void take_microproperties(dem::Material& material, const RockMaterial& rock);
 inline constexpr Shelf materials{"material", "a material has at least [material]",
                                  "LISTRIC_MATERIALS", "materials"};
 
-/// Whether a material's file must give a parameter: all but the reading of strengths and the law of
-/// permeability.
+/// Whether a material's file must give a parameter: all but resistance to rolling, the reading of
+/// strengths and the law of permeability.
 bool must_be_said(const Parameter& parameter);
 
 /// Reads and checks a material, with changes such as "material.friction=1". Throws SceneError.

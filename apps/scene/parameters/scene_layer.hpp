@@ -19,13 +19,14 @@ struct SceneLayer {
     bool is_welded = true;
 
     // Properties of its rock: of its material's file, where the table does not say them.
-    std::optional<double> normal_stiffness, shear_stiffness, friction;
+    std::optional<double> normal_stiffness, shear_stiffness, friction, rolling_friction;
     std::array<std::optional<double>, 4> strength = {}; ///< of bonds; none: it has no bonds
     dem::StrengthReading strength_is = dem::StrengthReading::stress;
 
     bool weakens = true; ///< by fault weakening
     /// As what; none: as the hanging wall does.
-    std::optional<double> weakened_normal_stiffness, weakened_shear_stiffness, weakened_friction;
+    std::optional<double> weakened_normal_stiffness, weakened_shear_stiffness, weakened_friction,
+        weakened_rolling_friction;
 
     /// Places where its top or bottom may bend, by ascending x, m; none: it is level.
     std::vector<double> bends() const;

@@ -36,6 +36,12 @@ template <auto... Path> std::vector<Parameter> material_parameters() {
          "friction of a disc; a contact has the smaller of its two discs'",
          "Raising it makes rock stronger under pressure, and lets it dilate where it shears.",
          between(0.05, 2.8)},
+        {"rolling_friction", at<Path..., &Material::rolling_friction>, "", ranges::friction, "mu_r",
+         "resistance to rolling of unbonded contacts: tangent of the slope on which a disc rests; "
+         "the smaller of two discs', and no more than friction",
+         "Raising it makes sand stronger than the 34 degrees that round discs reach; 0 costs "
+         "nothing.",
+         between(0, 0.5)},
     };
 }
 

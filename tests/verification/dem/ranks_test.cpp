@@ -117,6 +117,18 @@ protected:
                      "pore_fluid.permeability_m2=1e-19"}) {}
 };
 
+/// With discs that resist rolling.
+class SandOnRanks : public RanksTest {
+protected:
+    SandOnRanks() : RanksTest({"material.friction=0.6", "material.rolling_friction=0.3"}) {}
+};
+
+TEST_F(SandOnRanks, EndsInTheBitsOfOneProcess) {
+    const std::uint64_t whole = hash_at_end({});
+    for (const int count : {2, 3})
+        EXPECT_EQ(hash_on_ranks(count, scattered, {}), whole) << count;
+}
+
 TEST_F(MudOnRanks, EndsInTheBitsOfOneProcess) {
     const std::uint64_t whole = hash_at_end({});
     for (const int count : {2, 3})
