@@ -108,10 +108,10 @@ Scene at_level(const Scene& scene, const AccuracyLevel& level);
 /// Whether a scene wants pictures at this extension (m), to half a window.
 bool is_drawn_at(const Scene& scene, double extension);
 
-/// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
+/// Detachment or flat base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);
 
-/// Friction of the detachment or of the base that stretches.
+/// Friction of the detachment or of the flat base.
 double base_friction(const Scene& scene);
 
 /// Area between the base and the original surface, up to the moving wall, m^2; 0 without a base.
