@@ -45,7 +45,11 @@ std::optional<Foot> corner(const Segment& s, const Segment& next, Point p) {
     const double distance = std::sqrt(dot(out, out));
     if (dot(out, s.end_tangent) <= 0.0 || dot(out, next.start_tangent) >= 0.0 || distance == 0.0)
         return std::nullopt;
-    const double side = cross(s.end_tangent, out) < 0.0 ? -1.0 : 1.0;
+    // Over a tip sharper than a right angle the chain's turn says where the material is.
+    const bool is_sharp = dot(s.end_tangent, next.start_tangent) < 0.0;
+    const double left =
+        is_sharp ? cross(next.start_tangent, s.end_tangent) : cross(s.end_tangent, out);
+    const double side = left < 0.0 ? -1.0 : 1.0;
     return Foot{side * distance, {side * out.x / distance, side * out.y / distance}};
 }
 
@@ -137,9 +141,45 @@ void place(Surface& surface, const Chain& chain, Point translation, double exten
     surface.translation = translation;
 }
 
+const Surface* find_basement_block(const RigidBase& base) {
+    const auto found = std::ranges::find(base.surfaces, basement_block, &Surface::name);
+    return found == base.surfaces.end() ? nullptr : &*found;
+}
+
+Chain base_line(const RigidBase& base, double extension) {
+    const Surface& first = base.surfaces.front();
+    const Surface* const block = find_basement_block(base);
+    if (!block)
+        return first.chain;
+    const auto now = [&](const Surface& surface) {
+        return moved(surface.chain,
+                     {surface.translation.x * extension, surface.translation.y * extension});
+    };
+    const Segment left = now(first).front(), right = now(*block).back();
+    constexpr double least = 1e-9; // m
+    Chain whole{left};
+    if (hypotenuse(right.start.x - left.end.x, right.start.y - left.end.y) > least)
+        whole.push_back(line(left.end, right.start));
+    whole.push_back(right);
+    return whole;
+}
+
+void join_blocks(RigidBase& base, double extension) {
+    if (!find_basement_block(base))
+        return;
+    base.surfaces.front().chain = base_line(base, extension);
+    base.surfaces.front().translation = {};
+    std::erase_if(base.surfaces, [](const Surface& s) { return s.name == basement_block; });
+}
+
+double wall_way(const RigidBase& base, double extension) {
+    const auto wall = std::ranges::find(base.surfaces, "right wall", &Surface::name);
+    return wall == base.surfaces.end() ? extension : wall->translation.x * extension;
+}
+
 Stretching stretching(const RigidBase& base, double extension, double speed) {
     for (const Surface& surface : base.surfaces)
-        if (surface.stretched_length > 0.0)
+        if (surface.stretched_length > 0.0 && surface.translation == Point{})
             return {1.0 / (surface.stretched_length + extension) * speed,
                     surface.chain.front().start.y};
     return {};

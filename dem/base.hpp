@@ -74,9 +74,12 @@ struct Surface {
     double friction = 0.0;
     double conveyor = 0.0;  ///< its material runs along the chain with this speed
     Point translation = {}; ///< its velocity: it is at chain + translation * extension
-    /// If above 0, m, its material stretches: it moves along x with a speed in proportion to x, the
-    /// extension speed at stretched_length + extension.
+    /// If above 0, m, its material stretches: beside `translation` it moves along x in proportion
+    /// to the distance from where stretched_from has come to, and over stretched_length by
+    /// `stretch`.
     double stretched_length = 0.0;
+    double stretch = 1.0;        ///< of the extension, between the walls
+    double stretched_from = 0.0; ///< x of the material that goes with `translation`, m
     Follows follows = Follows::nothing;
     int degree = 2; ///< of the faces between nodes
     FrictionRule friction_rule = FrictionRule::wall;
@@ -100,7 +103,24 @@ struct RigidBase {
     Motion motion;
 };
 
-/// Thinning of what rests on a stretching base: du_x/dx = -du_y/dy.
+/// Name of the surface that is the basement on the right of a fault. What rests on it leaves it for
+/// the first surface, the basement on the left, over the scarp that one of them has.
+inline constexpr const char* basement_block = "basement block";
+
+/// The basement on the right of a fault; null where no fault cuts the base.
+const Surface* find_basement_block(const RigidBase& base);
+
+/// What discs rest on as one line from left to right at an extension, m: the first surface, or both
+/// blocks of a basement and the scarp between them.
+Chain base_line(const RigidBase& base, double extension);
+
+/// Makes that line the first surface, at rest, in place of two blocks.
+void join_blocks(RigidBase& base, double extension);
+
+/// Way of the right wall along x at an extension, m; the extension itself where none is named.
+double wall_way(const RigidBase& base, double extension);
+
+/// Thinning of what rests on a base that stretches as a whole: du_x/dx = -du_y/dy.
 struct Stretching {
     double rate = 0.0;  ///< 1/s; 0: nothing stretches
     double floor = 0.0; ///< y at which nothing sinks, m

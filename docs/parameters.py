@@ -87,6 +87,7 @@ EXPLAINED = {
     "basin_water": "theory/elastic-base.md#basin-water",
     "footwall_erosion": "theory/elastic-base.md#footwall-erosion",
     "base_motion": "theory/elastic-base.md#prescribed-motion",
+    "base_motion.fault_x_m": "guides/choosing.md#a-moving-basement",
     "flexure": "theory/elastic-base.md#thin-plates-to-compare-with",
 }
 TITLES = {"": "At the top of the file", "detachment.segments.arc": "Arcs of the detachment",

@@ -3,6 +3,7 @@
 #include "apps/archive/tables/rock_record.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/base_words.hpp"
+#include "apps/scene/parameters/flat_base.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
 #include "dem/cycle_physics.hpp"
@@ -80,10 +81,12 @@ std::string explain_softness(const Scene& scene, const Prediction& p) {
 std::string explain_size(const Scene& scene, const Prediction& p) {
     const ExtensionParameters& extension = scene.extension;
     const double extends = greatest_extension(scene); // less than the way where there are stages
+    const bool counts_slip = !scene.detachment && !scene.stretching && basement_fault(scene);
+    const char* const what = counts_slip ? "slip" : "extension";
     const std::string way = extends == extension.distance
-                                ? fmt::format("{:g} km of extension", extends / 1e3)
-                                : fmt::format("{:g} km of extension, {:g} km of travel",
-                                              extends / 1e3, extension.distance / 1e3);
+                                ? fmt::format("{:g} km of {}", extends / 1e3, what)
+                                : fmt::format("{:g} km of {}, {:g} km of travel", extends / 1e3,
+                                              what, extension.distance / 1e3);
     const std::string fitted =
         scene.picked_fault ? fmt::format("  {}\n", describe(*scene.picked_fault, *scene.detachment))
                            : "";
@@ -102,8 +105,7 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
 
 /// What moves with the right wall, and what resists it.
 std::string explain_base(const Scene& scene) {
-    const double friction =
-        scene.detachment ? scene.detachment->friction : scene.stretching->friction;
+    const double friction = scene.detachment ? scene.detachment->friction : base_friction(scene);
     return fmt::format("base\n  {}\n  friction {:g}, of which ramp_mobilised_friction and "
                        "flat_mobilised_friction tell what is used\n\n",
                        base_words(scene), friction);

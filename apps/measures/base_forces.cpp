@@ -101,12 +101,13 @@ struct Sums {
 } // namespace
 
 BaseForces measure_base_forces(const State& state, const RigidBase& base) {
-    const double flat_from = sole_out(base.surfaces.front().chain);
+    const double flat_from = sole_out(base_line(base, 0.0));
+    const Surface* const block = find_basement_block(base);
     Sums ramp, flat, all;
     std::vector<double> pushes(base.surfaces.size()); // horizontal, on the discs, N
     for_each_touch(state, base, [&](const Touch& touch) {
         pushes[touch.surface] += touch.force.x;
-        if (touch.surface != 0)
+        if (touch.surface != 0 && &base.surfaces[touch.surface] != block)
             return;
         (touch.x < flat_from ? ramp : flat).add(touch);
         all.add(touch);

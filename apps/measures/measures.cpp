@@ -36,11 +36,14 @@ bool rock_is_eroded(const Setting& setting, const State& state) {
 
 using Events = std::span<const std::unique_ptr<Event>>;
 
-void add_area(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
+/// @param base  of walls that no basement fault moves the area is balanced
+void add_area(Measures& m, const Setting& setting, const State& state, const RigidBase& base,
+              const Profile& profile) {
     const double extension = state.clock.extension.m;
     m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius) -
                    area_above_start(setting, state);
-    if (extension > 0.0 && !rock_is_eroded(setting, state))
+    if (extension > 0.0 && wall_way(base, extension) == extension && !find_basement_block(base) &&
+        !rock_is_eroded(setting, state))
         m.area_balance = m.basin_area / (extension * setting.thickness);
 }
 
@@ -151,7 +154,7 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
     const double extension = state.clock.extension.m;
     const Profile profile = measure_profile(setting, state, base);
     Measures m;
-    add_area(m, setting, state, profile);
+    add_area(m, setting, state, base, profile);
     if (extension > 0.0 && setting.has_detachment) {
         m.cutoff = find_cutoff(state, standing_base(base, state).surfaces.front().chain);
         add_rotations(m, setting, state, detachment);

@@ -31,7 +31,7 @@ ShearField only_present(ShearField field, const DiscPlaces& now) {
 
 RunSoFar::RunSoFar(const Setting& the_setting, const RigidBase& the_base, const State& state,
                    std::span<const Past> before)
-    : setting(the_setting), base(the_base), detachment(the_base.surfaces.front().chain), now(state),
+    : setting(the_setting), base(the_base), detachment(base_line(the_base, 0.0)), now(state),
       past(before), discs(disc_columns(state)), places(state),
       profile(measure_profile(the_setting, state, the_base)), diameter(2.0 * state.mean_radius),
       travel(state.clock.travel), extension(state.clock.extension),

@@ -35,7 +35,7 @@ struct RunSoFar {
 
     const Setting& setting;
     const dem::RigidBase& base;
-    const dem::Chain& detachment; ///< as it was at the start
+    const dem::Chain detachment; ///< or flat base, as it was at the start
     const dem::State& now;
     std::span<const Past> past;
     dem::ConstDiscColumns discs; ///< now

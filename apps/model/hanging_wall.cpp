@@ -28,6 +28,7 @@ State make_hanging_wall(const Scene& scene, const ModelParts& parts, const Stage
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     RigidBase base = parts.base;
     stand_backstop(base);
+    join_blocks(base, 0.0);
     const GenesisRequest request{
         .hanging_wall = scene.hanging_wall,
         .base = std::move(base),

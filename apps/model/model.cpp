@@ -132,7 +132,9 @@ Scene genesis_of(const Scene& scene) {
     start.extension = {};
     start.output = {};
     start.extension.distance = greatest_extension(scene); // decides how far the base reaches
-    if (start.detachment) {                               // the backstop stands in genesis
+    if (!start.detachment && !start.stretching) // it comes to rest on the whole of a flat base
+        start.stretching = StretchingParameters{base_friction(scene)};
+    if (start.detachment) { // the backstop stands in genesis
         start.detachment->footwall_top.reset();
         start.detachment->base = DetachmentParameters{}.base;
         start.detachment->footwall_friction = DetachmentParameters{}.footwall_friction;

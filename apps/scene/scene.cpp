@@ -1,6 +1,7 @@
 #include "apps/scene/scene.hpp"
 
 #include "apps/scene/parameters/accuracy.hpp"
+#include "apps/scene/parameters/flat_base.hpp"
 #include "apps/scene/parameters/stage.hpp"
 
 #include <fmt/format.h>
@@ -115,13 +116,38 @@ double least_extension(const Scene& scene) {
     return least;
 }
 
+std::optional<FlatBase> flat_base(const Scene& scene) {
+    const auto* moves = scene.find<PrescribedMotion>();
+    if (scene.detachment || (!scene.stretching && !moves))
+        return std::nullopt;
+    FlatBase base{.stretches = scene.stretching.has_value()};
+    if (scene.stretching)
+        base.friction = scene.stretching->friction;
+    else if (moves->friction)
+        base.friction = *moves->friction;
+    if (!moves || !moves->fault_x)
+        return base;
+    const double down = moves->fault_sense == FaultSense::normal ? 1.0 : -1.0;
+    // Where the base stretches it slips in proportion to the wall's way; else its slip is what the
+    // run counts.
+    const double share =
+        base.stretches ? moves->fault_slip.value_or(0.0) / scene.extension.distance : 1.0;
+    base.fault = BasementFault{*moves->fault_x, moves->fault_dip, down * share};
+    return base;
+}
+
+std::optional<BasementFault> basement_fault(const Scene& scene) {
+    const auto base = flat_base(scene);
+    return base ? base->fault : std::nullopt;
+}
+
 RigidBase make_rigid_base(const Scene& scene) {
     const Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                         greatest_extension(scene)};
     const Motion motion = make_motion(scene);
-    RigidBase base = scene.stretching
-                         ? make_stretching_box(*scene.stretching, extent, scene.basement, motion)
-                         : make_halfgraben(*scene.detachment, extent, scene.basement, motion);
+    RigidBase base = scene.detachment
+                         ? make_halfgraben(*scene.detachment, extent, scene.basement, motion)
+                         : make_box(*flat_base(scene), extent, scene.basement, motion);
     for (Surface& surface : base.surfaces)
         if (surface.name == "right wall" || surface.name == "left wall")
             surface.friction = scene.extension.wall_friction;
@@ -130,7 +156,7 @@ RigidBase make_rigid_base(const Scene& scene) {
 
 double base_friction(const Scene& scene) {
     if (!scene.detachment)
-        return scene.stretching->friction;
+        return flat_base(scene)->friction;
     const Stages* stages = scene.find<Stages>();
     return (stages ? stages->back().detachment_friction : std::nullopt)
         .value_or(scene.detachment->friction);
@@ -138,9 +164,8 @@ double base_friction(const Scene& scene) {
 
 double hanging_wall_area(const Scene& scene) {
     const bool has_base =
-        scene.stretching || (scene.detachment && !scene.detachment->segments.empty());
-    return has_base ? hanging_wall_area(scene.hanging_wall,
-                                        make_rigid_base(scene).surfaces.front().chain)
+        scene.detachment ? !scene.detachment->segments.empty() : flat_base(scene).has_value();
+    return has_base ? hanging_wall_area(scene.hanging_wall, base_line(make_rigid_base(scene), 0.0))
                     : 0.0;
 }
 

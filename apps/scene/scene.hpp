@@ -115,10 +115,10 @@ dem::Calendar make_calendar(const Scene& scene);
 /// Years of a scene from start to end.
 double end_age(const Scene& scene);
 
-/// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
+/// Detachment or flat base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);
 
-/// Friction of the detachment or of the base that stretches.
+/// Friction of the detachment or of the flat base.
 double base_friction(const Scene& scene);
 
 /// Area between the base and the original surface, up to the moving wall, m^2; 0 without a base.

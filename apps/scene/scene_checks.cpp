@@ -139,7 +139,8 @@ void check_base(const Scene& scene, const toml::table& document) {
     if (scene.detachment && scene.stretching)
         fail(entry_at(document, "stretching"),
              "stands in place of [detachment]; leave out one of the two");
-    if (!scene.detachment && !scene.stretching)
+    const auto brings_base = [](const EffectPart& part) { return part.effect->brings_base; };
+    if (!scene.detachment && !scene.stretching && std::ranges::none_of(scene.effects, brings_base))
         fail(entry_at(document, "hanging_wall"),
              "needs [detachment], the surface on which it slides, or [stretching]; add one");
     if (scene.picked_fault && !scene.detachment)

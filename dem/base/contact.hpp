@@ -89,6 +89,13 @@ inline double x_of_foot(const Foot& foot, const BaseContactDisc& disc) {
     return disc.x - foot.distance * foot.normal.x;
 }
 
+/// Speed along x of a stretching surface at x, beside its translation, in units of the extension
+/// speed.
+inline double stretch_at(const Surface& surface, double extension, double x) {
+    return surface.stretch * (x - (surface.stretched_from + surface.translation.x * extension)) /
+           (surface.stretched_length + surface.stretch * extension);
+}
+
 /// Velocity of a surface where it has a normal and the x of `place`, below a disc at x, m/s. The
 /// conveyor runs along the chain, whose direction is (n_y, -n_x).
 inline Point surface_velocity(const Surface& surface, const BaseInstant& now, double x,
@@ -96,7 +103,7 @@ inline Point surface_velocity(const Surface& surface, const BaseInstant& now, do
     const double conveyor = conveyor_at(surface, now, place);
     double along = surface.translation.x + conveyor * normal.y;
     if (surface.stretched_length > 0.0)
-        along += x / (surface.stretched_length + now.extension);
+        along += stretch_at(surface, now.extension, x);
     return {now.speed * along, now.speed * (surface.translation.y - conveyor * normal.x)};
 }
 

@@ -6,10 +6,18 @@
 
 namespace listric::dem {
 
-/// Motion of the detachment that is known beforehand: uplift, subsidence, tilt.
+enum class FaultSense { normal, reverse };
+
+/// Motion of the base that is known beforehand: uplift, subsidence, tilt, or a fault that slips.
 struct BaseMotionParameters {
     std::vector<TargetStage> uplift = {}; ///< upward displacement by x, at times, m
     std::vector<TargetStage> shift = {};  ///< rightward, m; may be empty
+    /// Where a fault of the basement meets the base of the cover, m; none: no fault slips.
+    std::optional<double> fault_x = {};
+    double fault_dip = 60.0; ///< to the right, degrees
+    FaultSense fault_sense = FaultSense::normal;
+    std::optional<double> fault_slip = {}; ///< at the end of a run without stages, m
+    std::optional<double> friction = {};   ///< of a base that no other table describes
 };
 
 /// Nodes along a chain, with a node where pieces meet, two for each face about `face` m long.

@@ -73,6 +73,7 @@ RigidBase standing_base(const RigidBase& base, const State& state) {
         }
         surface.follows = Follows::nothing;
     }
+    join_blocks(standing, place.extension);
     return standing;
 }
 

@@ -58,10 +58,14 @@ void PlainAccount::enter(const BaseContact& contact) {
                             ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
                              (speed + next_speed) * conveyor * (force.x * n.y - force.y * n.x));
     if (surface.stretched_length > 0.0) {
-        const double length = surface.stretched_length + clock.extension.m;
-        flows_.boundary_work += 0.5 * dt * force.x *
-                                (speed * disc.x / length +
-                                 next_speed * (disc.x + dt * disc.vx) / (length + dt * speed));
+        const double share = surface.stretch, extension = clock.extension.m;
+        const double length = surface.stretched_length + share * extension;
+        const double from = surface.stretched_from + moves.x * extension;
+        flows_.boundary_work +=
+            0.5 * dt * force.x *
+            (speed * share * (disc.x - from) / length +
+             next_speed * share * (disc.x + dt * disc.vx - (from + moves.x * dt * speed)) /
+                 (length + share * dt * speed));
     }
 }
 

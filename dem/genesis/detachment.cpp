@@ -3,6 +3,7 @@
 #include "dem/numbers/elementary.hpp"
 #include "dem/numbers/units.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -94,22 +95,41 @@ void stand_backstop(RigidBase& base) {
             surface = backstop();
 }
 
-RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,
-                              const Material& material, const Motion& motion) {
+RigidBase make_box(const FlatBase& flat, const Extent& extent, const Material& material,
+                   const Motion& motion) {
     RigidBase base;
     base.material = material;
     base.motion = motion;
     const double floor = -extent.thickness;
-    base.surfaces = {
-        {"base",
-         {line({0.0, floor}, {extent.reach(), floor})},
-         parameters.friction,
-         0.0,
-         {},
-         extent.length},
-        {"left wall", {line({0.0, high}, {0.0, -high})}},
-        right_wall(extent.length),
-    };
+    const double angle = flat.fault ? flat.fault->dip * pi / 180.0 : 0.0;
+    const Point down_dip{cosine(angle), -sine(angle)};
+    const double slip = flat.fault ? flat.fault->slip : 0.0; // over the extension
+    // What the fault's heave leaves of the walls' way apart.
+    const double stretch = flat.stretches ? 1.0 - slip * down_dip.x : 0.0;
+    Surface wall = right_wall(extent.length);
+    wall.translation = {flat.stretches ? 1.0 : slip * down_dip.x, slip * down_dip.y};
+    base.surfaces = {{.name = "base",
+                      .chain = {line({0.0, floor}, {extent.reach(), floor})},
+                      .friction = flat.friction,
+                      .stretched_length = flat.stretches ? extent.length : 0.0,
+                      .stretch = flat.fault ? stretch : 1.0},
+                     {"left wall", {line({0.0, high}, {0.0, -high})}},
+                     wall};
+    if (!flat.fault)
+        return base;
+    Surface& left = base.surfaces.front();
+    const Point cutoff{flat.fault->x, floor};
+    const double depth = extent.reach() * std::max(1.0, std::abs(slip)); // more than ever slips
+    const Point deep{cutoff.x + depth * down_dip.x, cutoff.y + depth * down_dip.y};
+    left.translation = {stretch * cutoff.x / extent.length, 0.0};
+    left.stretched_from = cutoff.x;
+    Surface right = left;
+    const double start = -std::max(0.0, left.translation.x * extent.distance);
+    left.chain = {line({start, floor}, cutoff), line(cutoff, deep)};
+    right.name = basement_block;
+    right.chain = {line(deep, cutoff), line(cutoff, {extent.reach(), floor})};
+    right.translation = {left.translation.x + slip * down_dip.x, slip * down_dip.y};
+    base.surfaces.push_back(right);
     return base;
 }
 

@@ -46,6 +46,22 @@ struct StretchingParameters {
     double friction = 0.3; ///< between discs and the base
 };
 
+/// A fault of rigid basement that cuts a flat base and dips to the right. The block on its right,
+/// with the right wall, moves along it.
+struct BasementFault {
+    double x = 0.0;    ///< where it meets the base before it slips, m
+    double dip = 60.0; ///< above 0, up to 90 degrees
+    double slip = 1.0; ///< down the dip, over the extension; below 0: up, a reverse fault
+};
+
+/// A flat base between two walls, in place of a detachment. It stretches, a fault cuts it, both, or
+/// it rests.
+struct FlatBase {
+    double friction = 0.3;  ///< between discs and the base
+    bool stretches = false; ///< the walls move apart by the extension
+    std::optional<BasementFault> fault = {};
+};
+
 /// Room that the base must offer: the hanging wall and how far it is pulled.
 struct Extent {
     double length = 0.0;    ///< of the hanging wall, m
@@ -69,9 +85,9 @@ RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& 
 /// Puts a backstop in place of the footwall's top, for genesis.
 void stand_backstop(RigidBase& base);
 
-/// Flat base that stretches, left wall and right wall.
-RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,
-                              const Material& material, const Motion& motion);
+/// Flat base, left wall and right wall, and the basement's block on the right of a fault.
+RigidBase make_box(const FlatBase& flat, const Extent& extent, const Material& material,
+                   const Motion& motion);
 
 /// Lets the detachment of a halfgraben be the line through the state's nodes (State::base_nodes)
 /// and the backstop, or the footwall's top, go with the first of them.

@@ -46,7 +46,7 @@ EFFECTS = (
     Effect("lower_crust_thinning", "LowerCrustThinningParameters"),
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
-    Effect("base_motion", "BaseMotionParameters"),
+    Effect("base_motion", "BaseMotionParameters", own="apps/scene/parameters/flat_base*"),
     Effect("stage", "StageParameters", own="apps/scene/parameters/stage*", trade=True),
 )
 

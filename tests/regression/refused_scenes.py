@@ -87,6 +87,7 @@ def refused_scenes():
         "two that move the base": elastic + table("[base_motion]", uplift="[[0.0, 0.0], [40000.0, 100.0]]"),
         "a mesh that is not there": elastic.replace("[basin_water]", 'mesh_file = "no-such.msh"\n[basin_water]'),
         "motion of nothing": lis1 + table("[base_motion]"),
+        "a fault of the basement below a detachment": lis1 + table("[base_motion]", fault_x_m=20000.0, fault_slip_m=100.0),
         "two motions": lis1 + table("[base_motion]", csv='"m.csv"', uplift="[[0.0, 0.0], [40000.0, 100.0]]"),
         # sediment
         "a target that goes back": lis1.replace("level_m = 0.0 ", "target = [[0.0, 0.0], [900.0, 9.0], [800.0, 9.0]] #"),

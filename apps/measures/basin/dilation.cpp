@@ -102,7 +102,7 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
     const bool shortens = run.base.motion.shortens(just_before(run.base.motion, run.now.clock));
     const auto add_area = [&](const Quantity& area, const Quantity& fraction, double value) {
         add(numbers, area, value);
-        if (!shortens)
+        if (!shortens && !find_basement_block(run.base))
             add(numbers, fraction, value / moved);
     };
     add_area(dilation, dilation_fraction, growth * scale);

@@ -46,8 +46,8 @@ Envelopes envelopes(const ConstDiscColumns& d, std::span<const double> x, std::s
 Profile measure_profile(const Setting& setting, const State& state, const RigidBase& base) {
     const Chain detachment = standing_base(base, state).surfaces.front().chain;
     const double width = 2.0 * state.mean_radius;
-    const auto columns =
-        static_cast<std::size_t>((setting.length + state.clock.extension.m) / width);
+    const auto columns = static_cast<std::size_t>(
+        (setting.length + wall_way(base, state.clock.extension.m)) / width);
     const ConstDiscColumns d = disc_columns(state);
     Envelopes top = envelopes(d, d.x, d.y, columns, width);
     Profile p;

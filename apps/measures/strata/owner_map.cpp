@@ -15,7 +15,7 @@ RockSpace::RockSpace(const Setting& setting, const RigidBase& base, const State&
     : floor(standing_base(base, state).surfaces.front().chain),
       // The backstop follows the breakaway; a box's floor goes on beyond its walls.
       left(setting.has_detachment ? floor.front().start.x : 0.0),
-      right(setting.length + state.clock.extension.m) {}
+      right(setting.length + wall_way(base, state.clock.extension.m)) {}
 
 double RockSpace::inside(Point p) const {
     return std::min({p.y - height_at(floor, p.x), p.x - left, right - p.x});

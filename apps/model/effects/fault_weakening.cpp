@@ -184,7 +184,7 @@ std::optional<double> volume_error_of(const Observation& now) {
     if (ledger.deposited - ledger.removed > ledger.initial)
         return std::nullopt;
     return std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
-           dem::hanging_wall_area(now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
+           dem::hanging_wall_area(now.scene.hanging_wall, base_line(now.parts.base, 0.0));
 }
 
 std::vector<Measure<Observation>> measures() {

@@ -282,7 +282,7 @@ void check_geometry(const Scene& scene, const L& layer, std::size_t item, const 
     const std::string table = fmt::format("layer[{}]", item);
     check_line(scene, item, "top", layer.top_line, refuse);
     check_line(scene, item, "bottom", layer.bottom_line, refuse);
-    const dem::Chain base = make_rigid_base(scene).surfaces.front().chain;
+    const dem::Chain base = base_line(make_rigid_base(scene), 0.0);
     bool is_inside = false;
     for (const double x : places(scene, layer, layer)) {
         const double top = layer.top_at(x), bottom = layer.bottom_at(x);

@@ -72,7 +72,7 @@ void check(const Scene& scene, const Refuse& refuse) {
     constexpr int samples = 100; // of a line between two points
     const OldFaultList& faults = *scene.find<OldFaultList>();
     const double right = scene.hanging_wall.length;
-    const dem::Chain base = make_rigid_base(scene).surfaces.front().chain;
+    const dem::Chain base = base_line(make_rigid_base(scene), 0.0);
     for (std::size_t k = 0; k < faults.size(); ++k) {
         const std::string table = fmt::format("old_fault[{}]", k);
         const auto lines = lines_of(faults[k]);

@@ -133,7 +133,9 @@ struct Observation {
     std::span<const std::unique_ptr<dem::Event>> events;
 
     /// Place of the hanging wall's right end, m.
-    double right_end() const { return scene.hanging_wall.length + state.clock.extension.m; }
+    double right_end() const {
+        return scene.hanging_wall.length + dem::wall_way(parts.base, state.clock.extension.m);
+    }
 };
 
 /// An object of summary.json, or a list of such objects.
@@ -239,6 +241,7 @@ struct Effect {
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
+    bool brings_base = false; ///< a scene with it needs no detachment and no base that stretches
     /// Words for why its sediment gets lower where nothing shears: pictures of strain are without
     /// that strain, and say so.
     std::string_view settling = {};

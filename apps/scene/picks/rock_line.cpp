@@ -159,8 +159,8 @@ std::string rock_line(const Scene& scene, const std::optional<RockOrigins>& orig
     if (scene.detachment)
         parts.push_back(fmt::format("detachment: {}, friction {:g}",
                                     base_name(scene.detachment->base), scene.detachment->friction));
-    if (scene.stretching)
-        parts.push_back(fmt::format("base friction {:g}", scene.stretching->friction));
+    else
+        parts.push_back(fmt::format("base friction {:g}", base_friction(scene)));
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 

@@ -218,8 +218,12 @@ Json dependencies(EffectList effects) {
     for (const Effect* effect : effects)
         if (const auto needed = needed_tables(*effect, effects); !needed.empty())
             rules[std::string(effect->name)] = needed;
-    rules["hanging_wall"] = {
-        {"oneOf", Json::array({needs({"detachment"}), needs({"stretching"})})}};
+    const Json bases = Json::array({needs({"detachment"}), needs({"stretching"})});
+    Json ways = bases;
+    for (const Effect* effect : effects)
+        if (effect->brings_base)
+            ways.push_back({{"allOf", {needs({effect->name}), {{"not", {{"anyOf", bases}}}}}}});
+    rules["hanging_wall"] = {{"oneOf", ways}};
     return rules;
 }
 

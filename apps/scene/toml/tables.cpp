@@ -193,7 +193,7 @@ std::vector<Parameter> extension_parameters() {
          "model time over which the speed grows from rest; its default depends on the accuracy",
          "Lowering it starts the motion with a jolt."},
         {"wall_friction", at<&P::wall_friction>, "", ranges::friction, "",
-         "friction between discs and the right wall, and the left wall of [stretching]",
+         "friction between discs and the right wall, and the left wall of a flat base",
          "Raising it hangs the rock beside the wall on it, and turns the planes that begin there.",
          between(0, 0.6)},
     };
