@@ -3,7 +3,9 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/base_words.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
 #include "dem/events/stage_change.hpp"
@@ -158,6 +160,18 @@ std::optional<double> rest_strain(const Observation& now) {
     return or_nan(before > 0.0 ? std::optional(*strain / before) : std::nullopt);
 }
 
+void check(const Scene& scene, const Refuse& refuse) {
+    const Stages& stages = *scene.find<Stages>();
+    const bool has_water = make_parts(scene).water.has_value();
+    for (std::size_t k = 0; k < stages.size(); ++k)
+        if (stages[k].water_level && !has_water)
+            refuse(
+                fmt::format("stage[{}].water_level_m", k),
+                fmt::format("is {}, but no water acts on the discs; add a table of pore fluid, or "
+                            "leave it out",
+                            text(*stages[k].water_level)));
+}
+
 std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
@@ -260,6 +274,7 @@ const Effect& effect() {
         .parameters = stage_parameters(),
         .items = items_of<StageParameters>,
         .complete = complete_stages,
+        .check = check,
         .add_events = add_events,
         .explain = explain,
         .measures = measures_of_stages(),

@@ -25,6 +25,7 @@ struct StageParameters {
     std::optional<double> detachment_friction;
     std::optional<double> sediment_friction;
     dem::SurfaceWork surface_work = dem::SurfaceWork::both;
+    std::optional<double> water_level; ///< m, reached at the stage's end; none: as before
 };
 
 using Stages = std::vector<StageParameters>;
