@@ -11,6 +11,7 @@ namespace {
 constexpr const char* modes_name = "modes";
 constexpr const char* reference = "reference";
 constexpr const char* checksum_name = "mesh_checksum"; // in table "reference"
+constexpr const char* pushes_name = "pushes";
 constexpr const char* window = "window";
 constexpr const char* window_means = "window_means";
 constexpr const char* last_window = "last_window";
@@ -63,6 +64,20 @@ void set_virtual_pressure(State& state, double pressure) {
 
 double virtual_pressure(const State& state) {
     return table(state, reference).get<double>("virtual_pressure")[0];
+}
+
+void set_push_sums(State& state, const PushSums& sums) {
+    Table& row = state.base_memory[pushes_name];
+    row.resize(1);
+    row.add<double>("start", "N", 0.0)[0] = sums.start;
+    row.add<double>("now", "N", 0.0)[0] = sums.now;
+}
+
+PushSums push_sums(const State& state) {
+    const auto found = state.base_memory.find(pushes_name);
+    if (found == state.base_memory.end())
+        return {};
+    return {found->second.get<double>("start")[0], found->second.get<double>("now")[0]};
 }
 
 void set_mesh_checksum(State& state, std::uint64_t checksum) {

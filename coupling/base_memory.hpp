@@ -27,7 +27,15 @@ std::size_t mode_count(const dem::State& state); ///< 0 without the table
 void set_virtual_pressure(dem::State& state, double pressure);
 double virtual_pressure(const dem::State& state);
 
-/// In it, of a footwall on a mesh from a file, also the checksum of that file.
+/// Sums of the discs' vertical pushes, N: at the start and when they were last set. Table "pushes",
+/// which only a state with pushes has.
+struct PushSums {
+    double start = 0.0, now = 0.0;
+};
+void set_push_sums(dem::State& state, const PushSums& sums);
+PushSums push_sums(const dem::State& state);
+
+/// In table "reference", of a footwall on a mesh from a file, also the checksum of that file.
 void set_mesh_checksum(dem::State& state, std::uint64_t checksum);
 std::optional<std::uint64_t> mesh_checksum(const dem::State& state);
 

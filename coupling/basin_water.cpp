@@ -113,8 +113,9 @@ BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& p
 }
 
 void BasinWater::begin(State& state) {
-    interface_load(state, name(), 2 * nodes_);
-    if (pores_)
+    if (!parameters_.flank_alone)
+        interface_load(state, name(), 2 * nodes_);
+    if (pores_ && !parameters_.flank_alone)
         interface_load(state, in_pores, 2 * nodes_);
     if (flank_)
         footwall_load(state, name(), 2 * nodes_);
@@ -135,7 +136,8 @@ void BasinWater::load_columns(State& state, std::string_view column,
             load[2 * n + 1] -= pressure[k] * per_pascal_[k][n];
 }
 
-bool BasinWater::apply(State& state, const RigidBase&) {
+/// Water in the basin and in the pores of its sediment.
+void BasinWater::fill_basin(State& state) const {
     const double start = memory.get<double>("start_depth_m")[0];
     const double weight = parameters_.density * gravity_;
     std::vector<double> pressure = water_depths(state, parameters_.level, column_width_);
@@ -149,7 +151,13 @@ bool BasinWater::apply(State& state, const RigidBase&) {
             p *= weight / column_width_;
         load_columns(state, in_pores, pressure);
     }
+}
+
+bool BasinWater::apply(State& state, const RigidBase&) {
+    if (!parameters_.flank_alone)
+        fill_basin(state);
     if (flank_) {
+        const double weight = parameters_.density * gravity_;
         std::ranges::copy(
             flank_depths(flank_->response, flank_->height(state), parameters_.level, weight),
             memory.get<double>("flank_depth_m").begin());
@@ -205,10 +213,14 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
             solution.base.interface(), parameters, gravity, column_width, calendar, pores,
             flank_left ? std::optional(make_flank(knots, solution)) : std::nullopt);
         const BasinWater& water = *event;
-        LoadingEvent effect{.event = std::move(event), .measures = [&water](const State& state) {
-                                return NamedValues{{basin_water_name, water_weight(state)},
-                                                   {pore_water_name, pore_water_weight(state)},
-                                                   {flank_water_name, water.flank_weight()}};
+        LoadingEvent effect{.event = std::move(event),
+                            .measures = [&water, parameters](const State& state) {
+                                NamedValues all;
+                                if (!parameters.flank_alone)
+                                    all = {{basin_water_name, water_weight(state)},
+                                           {pore_water_name, pore_water_weight(state)}};
+                                all.emplace_back(flank_water_name, water.flank_weight());
+                                return all;
                             }};
         if (flank_left) {
             effect.amounts = [&water](const State&) { return water.flank_pressure(); };

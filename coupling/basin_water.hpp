@@ -27,6 +27,7 @@ struct BasinWaterParameters {
     double level = 0.0;       ///< of its surface, above the original surface, m
     double density = 1030.0;  ///< kg/m^3
     double interval = 2500.0; ///< time between adaptations, a
+    bool flank_alone = false; ///< something else puts the rest on the base
 };
 
 /// Two mean disc diameters, m: the highest disc of a column is then the surface.
@@ -86,6 +87,7 @@ public:
     double flank_weight() const;                ///< N per m of strike
 
 private:
+    void fill_basin(dem::State& state) const;
     void load_columns(dem::State& state, std::string_view column,
                       std::span<const double> pressure) const;
 

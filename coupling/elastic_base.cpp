@@ -4,6 +4,7 @@
 #include "coupling/interface_loads.hpp"
 #include "dem/law.hpp"
 #include "dem/numbers/order_free.hpp"
+#include "dem/pushes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -27,11 +28,15 @@ double norm(std::span<const double> v) {
 /// part of its width.
 double weight_per_length(const State& state, double from, double to, double gravity) {
     const ConstDiscColumns d = disc_columns(state);
-    double mass = 0.0;
-    for (std::size_t i = 0; i < d.x.size(); ++i)
-        mass +=
-            d.mass[i] * std::clamp((d.x[i] + d.radius[i] - from) / (2.0 * d.radius[i]), 0.0, 1.0);
-    return gravity * mass / (to - from);
+    const Pushes pushes(state);
+    double mass = 0.0, pushed = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double share =
+            std::clamp((d.x[i] + d.radius[i] - from) / (2.0 * d.radius[i]), 0.0, 1.0);
+        mass += d.mass[i] * share;
+        pushed += pushes[i].y * share;
+    }
+    return (gravity * mass - pushed) / (to - from);
 }
 
 double mass(const Ledger& ledger) { return ledger.initial + ledger.deposited - ledger.removed; }
@@ -212,12 +217,14 @@ ElasticBase::DiscLoad ElasticBase::take_disc_load(State& state, double cycles,
 }
 
 void ElasticBase::book(State& state, const DiscLoad& load) const {
-    const double weight = parameters_.gravity * mass(state.ledger);
+    const PushSums pushes = push_sums(state);
+    const double weight = parameters_.gravity * mass(state.ledger) - pushes.now;
     double net = 0.0;
     for (std::size_t k = 1; k < load.forces.size(); k += 2)
         net += load.forces[k];
     const double change = virtual_pressure(state) * load.extension +
-                          parameters_.gravity * (state.ledger.removed - state.ledger.deposited);
+                          parameters_.gravity * (state.ledger.removed - state.ledger.deposited) +
+                          (pushes.now - pushes.start);
     const WindowSums sums = window_sums(state);
     sums.cycles += load.cycles;
     sums.reaction_error += load.cycles * (load.reaction / weight - 1.0);

@@ -96,6 +96,12 @@ FootwallLoads::FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
         events.push_back(std::move(effect.event));
 }
 
+void FootwallLoads::prepare(State& state) const {
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.prepare)
+            effect.prepare(state);
+}
+
 fem::Load FootwallLoads::elsewhere(const State& state) const {
     std::vector<fem::Load> loads;
     for (const LoadingEvent& effect : *effects_)

@@ -68,6 +68,8 @@ struct LoadingEvent {
     /// none: nothing.
     std::function<double(double x)> cover = {};
     std::function<NamedValues(const dem::State&)> measures = {};
+    /// Gives discs what they settle on the base with; none: nothing.
+    std::function<void(dem::State&)> prepare = {};
 };
 
 /// An effect that loads the footwall, before its unit loads are solved for.
@@ -85,6 +87,9 @@ public:
     FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
                   std::span<const FootwallLoad> effects,
                   std::vector<std::unique_ptr<dem::Event>>& events);
+
+    /// Before the discs settle on the base, which has its nodes.
+    void prepare(dem::State& state) const;
 
     /// Load on the footwall elsewhere than on the interface.
     fem::Load elsewhere(const dem::State& state) const;

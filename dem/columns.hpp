@@ -60,6 +60,7 @@ inline constexpr ColumnName<double> excess_pressure{
 inline constexpr ColumnName<double> wanted_porosity{
     "wanted_porosity", "1",
     0.0}; ///< porosity to which pore water lets the sediment compact, given likewise
+inline constexpr ColumnName<double> lift{"lift", "N", 0.0}; ///< by excess pressure, part of push_y
 
 // Contacts of two discs.
 inline constexpr ColumnName<std::int32_t> first{"first", "1", -1};
@@ -81,6 +82,10 @@ inline constexpr ColumnName<double> place{
 inline constexpr ColumnName<double> ux{"ux", "m", 0.0}, uy{"uy", "m", 0.0};
 inline constexpr ColumnName<double> searched_ux{"searched_ux", "m", 0.0},
     searched_uy{"searched_uy", "m", 0.0};
+inline constexpr ColumnName<double> excess_x{"excess_x", "N", 0.0}, ///< forces of excess pressure
+    excess_y{"excess_y", "N", 0.0};
+inline constexpr ColumnName<double> excess_size{"excess_size", "N",
+                                                0.0}; ///< magnitude of that pressure, times length
 inline constexpr ColumnName<std::int64_t> load_x{"load_x", "2^-10 N", 0},
     load_y{"load_y", "2^-10 N", 0};
 

@@ -4,6 +4,7 @@
 #include "dem/contacts/grain_columns.hpp"
 #include "dem/cycle_physics.hpp"
 #include "dem/pushes.hpp"
+#include "fluid/base_pressure.hpp"
 #include "fluid/columns.hpp"
 
 #include <algorithm>
@@ -70,14 +71,17 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 }
 
 PoreFluid::PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
-                     const dem::Calendar& calendar)
+                     const dem::Calendar& calendar, const WaterSurface& surface)
     : Event("pore_fluid", {fluid.interval, calendar}), fluid_(fluid), sediment_(sediment),
-      law_(pore_law(fluid, sediment, gravity)), fluid_weight_(fluid.density * gravity) {
+      surface_(surface), law_(pore_law(fluid, sediment, gravity)),
+      fluid_weight_(fluid.density * gravity) {
     for (const char* name : {Sums::came, Sums::surface, Sums::vented, Sums::eroded, Sums::left})
         memory.add<double>(name, "m^2", 0.0);
     for (const char* name : {Sums::newton, Sums::capped, Sums::enclosed})
         memory.add<double>(name, "1", 0.0);
     memory.add<double>(Sums::fill, "1", 1.0);
+    if (surface_.loads_base)
+        memory.add<double>(Sums::closure, "1", 0.0);
     memory.resize(1);
 }
 
@@ -91,6 +95,8 @@ void PoreFluid::begin(State& state) {
     state.discs.add(columns::darcy_y);
     if (fluid_.pushes)
         add_pushes(state);
+    if (surface_.loads_base)
+        add_base_pressure(state);
 }
 
 /// Books the water that has come with sediment and gone with it since the last solution.
@@ -112,7 +118,18 @@ void PoreFluid::take_stock(State& state, const PoreCells& cells) {
     memory.get<double>(Sums::came)[0] += came;
 }
 
+/// Height of the grains above a place as they would weigh in water, m: those above the level weigh
+/// more.
+double PoreFluid::grains_of(const WetGround& ground, Point p, double of_discs, double level) const {
+    const double grains = ground.grains(p, of_discs), depth = ground.depth(p);
+    if (!surface_.ends || !(depth > 0.0))
+        return grains;
+    const double dry = std::clamp((p.y + depth - level) / depth, 0.0, 1.0);
+    return grains * (1.0 + dry * fluid_weight_ / law_.grain_weight);
+}
+
 bool PoreFluid::apply(State& state, const RigidBase& base) {
+    const double level = surface_.level.at(state);
     const PoreCells cells = pore_cells(state, base, sediment_);
     take_stock(state, cells);
     const ConstDiscColumns d = disc_columns(std::as_const(state));
@@ -125,12 +142,11 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     std::vector<double> porosity = gathered(state, dem::columns::wanted_porosity, cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
-        grains.push_back(ground.grains({d.x[i], d.y[i]}, of_discs[i]));
+        grains.push_back(grains_of(ground, {d.x[i], d.y[i]}, of_discs[i], level));
         solid.push_back(d.mass[i] / sediment_.grain_density);
         conductivity.push_back(permeability(fluid_.permeability, porosity[k]));
         bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * grains[k]);
-        bounds.lowest.push_back(-fluid_weight_ *
-                                std::max(0.0, fluid_.level.value_or(0.0) - d.y[i]));
+        bounds.lowest.push_back(-fluid_weight_ * std::max(0.0, level - d.y[i]));
     }
     const Storage storage = [&](std::size_t k, double u) {
         const VoidRatio e = void_ratio(law_, grains[k], burial[k], u);
@@ -179,7 +195,7 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         cells.count() == 0
             ? 0.0
             : static_cast<double>(enclosed_cells(network)) / static_cast<double>(cells.count());
-    push(state, cells);
+    push(state, base, cells);
     return false;
 }
 
@@ -197,7 +213,7 @@ double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
 }
 
 /// Hands the pressures to the discs as forces.
-void PoreFluid::push(State& state, const PoreCells& cells) {
+void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const std::vector<double> porosity = gathered(state, dem::columns::wanted_porosity, cells);
     std::vector<double> volume; // of the mud, m^2
@@ -210,8 +226,8 @@ void PoreFluid::push(State& state, const PoreCells& cells) {
     memory.get<double>(Sums::fill)[0] = cell_area > 0.0 ? sum(volume) / cell_area : 1.0;
     if (!fluid_.pushes)
         return;
-    const std::vector<Point> force =
-        pore_forces(state, cells, volume, gathered(state, dem::columns::excess_pressure, cells));
+    const std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
+    std::vector<Point> force = pore_forces(state, cells, volume, u);
     const auto push_x = state.discs.get(dem::columns::push_x);
     const auto push_y = state.discs.get(dem::columns::push_y);
     double capped = 0.0;
@@ -225,9 +241,22 @@ void PoreFluid::push(State& state, const PoreCells& cells) {
         const bool flies = force[i].y - load > most;
         capped += flies;
         push_y[i] = flies ? most : force[i].y - load;
+        force[i].y = push_y[i] + load;
     }
     memory.get<double>(Sums::capped)[0] =
         cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;
+    if (!surface_.loads_base)
+        return;
+    memory.get<double>(Sums::closure)[0] =
+        press_base(state, base, cells, u, remembered(Sums::fill), force);
+    const auto lift = state.discs.get(dem::columns::lift);
+    for (std::size_t i = 0; i < force.size(); ++i) {
+        lift[i] = force[i].y;
+        if (cells.cell_of[i] >= 0)
+            continue;
+        push_x[i] = force[i].x;
+        push_y[i] = force[i].y;
+    }
 }
 
 } // namespace listric::fluid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/base/water_level.hpp"
 #include "dem/event.hpp"
 #include "fluid/pore_cells.hpp"
 #include "fluid/pore_law.hpp"
@@ -29,6 +30,13 @@ struct PoreFluidParameters {
     bool pushes = true;               ///< u exerts forces; else it only keeps pores open
 };
 
+/// Where the water ends, and what else it acts on.
+struct WaterSurface {
+    dem::WaterLevel level = {};
+    bool ends = false;       ///< ground above the level is dry (see DryGround), and weighs so
+    bool loads_base = false; ///< excess pressure presses on a base that bends
+};
+
 /// Share of weight that is left in water.
 double buoyant_share(double fluid_density, double grain_density);
 
@@ -46,12 +54,13 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 /// Columns of discs: excess_pressure, Pa; pore_water, m^2 (-1: not counted yet); burial, m,
 /// greatest equivalent depth; wanted_porosity, which compaction follows; overpressure_ratio, u over
 /// the weight of grains in water; darcy_x, darcy_y, m/s, volume of water that passes an area in a
-/// time; push_x, push_y. Its memory has one row: see Sums.
+/// time; push_x, push_y; and, where the base is
+/// loaded, those of add_base_pressure(). Its memory has one row: see Sums.
 class PoreFluid : public dem::Event {
 public:
     /// @param gravity  of planet, not of discs in water, m/s^2
     PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
-              const dem::Calendar& calendar);
+              const dem::Calendar& calendar, const WaterSurface& surface = {});
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
@@ -59,13 +68,16 @@ public:
     /// Names of what is remembered: water, m^2, that came with sediment, left through the ground,
     /// was vented and eroded, and that is left; the greatest number of Newton's steps so far; and
     /// of the last solution shares of wet discs whose lift was cut, of those that no flow reaches,
-    /// and the mud's own volumes over those of its cells.
+    /// and the mud's own volumes over those of its cells; where the base is loaded, what was
+    /// missing to balance the pressure on it.
     struct Sums {
         static constexpr const char *came = "came", *surface = "surface", *vented = "vented",
                                     *eroded = "eroded", *left = "left", *newton = "newton_steps",
-                                    *capped = "lift_capped", *enclosed = "enclosed", *fill = "fill";
+                                    *capped = "lift_capped", *enclosed = "enclosed", *fill = "fill",
+                                    *closure = "closure";
     };
     double remembered(std::string_view name) const { return memory.get<double>(name)[0]; }
+    bool loads_base() const { return surface_.loads_base; }
 
     const PoreFluidParameters& parameters() const { return fluid_; }
     const WetSediment& sediment() const { return sediment_; }
@@ -75,10 +87,12 @@ public:
 private:
     void take_stock(dem::State& state, const PoreCells& cells);
     double pending_load(const PoreCells& cells, std::size_t cell) const;
-    void push(dem::State& state, const PoreCells& cells);
+    double grains_of(const WetGround& ground, dem::Point p, double of_discs, double level) const;
+    void push(dem::State& state, const dem::RigidBase& base, const PoreCells& cells);
 
     PoreFluidParameters fluid_;
     WetSediment sediment_;
+    WaterSurface surface_;
     PoreLaw law_;
     double fluid_weight_; ///< N/m^3
 };

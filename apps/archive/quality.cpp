@@ -9,6 +9,7 @@
 #include "apps/model/effects/stage_steps.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/parameters/stage.hpp"
+#include "coupling/water_load.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -228,6 +229,30 @@ void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
                            "weight. The range is that of lis1 at standard."});
 }
 
+/// Balances of the water, which are round-off, and of its pressure on a base that bends.
+void add_water(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    struct Balance {
+        const char *key, *label, *good, *doubtful;
+        double most;
+    };
+    for (const Balance& b :
+         {Balance{effects::water_error, "Pore water", "All pore water is accounted for.",
+                  "Pore water is lost: please report it.", 1e-11},
+          Balance{coupling::water_force_error_name, "Weight of rock and water on the base",
+                  "The base bears the weight of rock and water.",
+                  "The base does not bear the weight of rock and water: please report it.", 1e-9},
+          Balance{effects::fluid_closure, "Excess pressure on the base",
+                  "Lift of the sediment and pressure below it balance.",
+                  "Lift of the sediment and pressure below it do not balance: the sediment is few "
+                  "discs thick, or has gaps.",
+                  0.02}})
+        if (const auto value = number_at(summary, b.key)) {
+            const bool good = std::abs(*value) < b.most;
+            all.push_back({b.key, b.label, small_text(*value), "below " + small_text(b.most),
+                           verdict_of(good), good ? b.good : b.doubtful});
+        }
+}
+
 void add_rest(std::vector<QualityCheck>& all, const JsonObject& summary) {
     constexpr double most = 0.15; // of a window's strain (docs/guides/inversion.md)
     const auto windows = number_at(summary, effects::stage::rest_strain_windows);
@@ -275,6 +300,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     add_sediment(all, summary);
     add_rest(all, summary);
     add_steps(all, summary);
+    add_water(all, summary);
     return all;
 }
 

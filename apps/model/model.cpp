@@ -65,8 +65,9 @@ std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
                                                         const ModelParts& parts) {
     std::vector<coupling::FootwallLoad> loads;
     for (const EffectPart& part : scene.effects)
-        if (part.effect->load_footwall)
-            loads.push_back(part.effect->load_footwall(scene, parts));
+        for (const auto load : {part.effect->load_footwall, part.effect->load_bending_base})
+            if (load)
+                loads.push_back(load(scene, parts));
     return loads;
 }
 

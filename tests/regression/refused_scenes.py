@@ -76,7 +76,11 @@ def refused_scenes():
                                           + table("[[old_fault]]", name='"f"', points="[[12000.0, 1000.0], [14000.0, 3000.0]]"),
         # water
         "water heavier than grains": lis1 + table("[pore_fluid]", fluid_density_kg_per_m3=5000.0),
-        "water beside an elastic base": elastic.partition("[basin_water]")[0] + table("[pore_fluid]"),
+        "two levels of water": elastic + table("[pore_fluid]", level_m=-100.0),
+        "two densities of water": elastic + table("[pore_fluid]", fluid_density_kg_per_m3=1100.0),
+        "two waters of which one falls": (without(elastic, "distance_m") + table("[pore_fluid]")
+                                          + stage(distance_m=1000.0, water_level_m=-100.0)),
+        "a level of no water": free + stage(distance_m=1000.0, water_level_m=-100.0),
         "water without compaction": without(lis1, "[compaction]") + table("[pore_fluid]"),
         "water without sediment": dry + table("[pore_fluid]"),
         "water of the basin on a rigid base": lis1 + table("[basin_water]"),

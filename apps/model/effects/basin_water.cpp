@@ -2,6 +2,8 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
+#include "apps/model/model.hpp"
+#include "apps/support/words/spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -17,17 +19,41 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
         pores = {parts.sediment->grain_density, parts.sediment->surface_porosity};
     // Where the base's own springs fill what sinks, water has no room.
     const auto& base = *bending_base(scene);
+    P water = *scene.find<P>();
+    water.flank_alone = parts.water.has_value(); // whose pressure the base bears
     return coupling::basin_water_load(
-        *scene.find<P>(), parts.gravity,
-        coupling::water_column_width(scene.hanging_wall.mean_radius), make_calendar(scene), pores,
+        water, parts.gravity, coupling::water_column_width(scene.hanging_wall.mean_radius),
+        make_calendar(scene), pores,
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
+    const P& water = *scene.find<P>();
+    if (const auto pores = make_parts(scene).water) {
+        const double level = pores->level.heights.at(0.0).height(0.0);
+        if (pores->moves)
+            refuse(
+                "basin_water",
+                "counts the flank's water up to one level, and a [[stage]] has a water_level_m of "
+                "its own; leave out one of the two");
+        if (water.level != level)
+            refuse("basin_water.level_m",
+                   fmt::format("is {}, but the water in the pores stands at {}; it is one water: "
+                               "give both the same",
+                               text(water.level), text(level)));
+        if (water.density != pores->density)
+            refuse(
+                "basin_water.density_kg_per_m3",
+                fmt::format("is {}, but the water in the pores has {}; it is one water: give both "
+                            "the same",
+                            text(water.density), text(pores->density)));
+    }
     if (const std::string why = objection_to_fill(scene.find<P>()->density, *bending_base(scene));
         !why.empty())
         refuse("basin_water.density_kg_per_m3", why);
 }
+
+bool pores_have_water(const ModelParts& parts) { return parts.water.has_value(); }
 
 /// Floor and level of the water from the shore at the breakaway on.
 std::vector<double> water_band(const Observation& now) {
@@ -69,12 +95,14 @@ const Effect& effect() {
         .explain =
             [](const Scene& scene, EffectList) {
                 const P& water = *scene.find<P>();
-                return fmt::format("    basin: water of {} kg/m3 up to {:g} m\n", water.density,
+                return fmt::format("    {}: water of {} kg/m3 up to {:g} m\n",
+                                   make_parts(scene).water ? "flank" : "basin", water.density,
                                    water.level);
             },
-        .absence = {"water in the basin and in the pores of its sediment", "-30 to -39 %"},
+        .absence = {"water in the basin and in the pores of its sediment", "-30 to -39 %",
+                    pores_have_water},
         .lacks = {{"sideways thrust of the water on scarp and head block",
-                   "not measured; 0.4e12 N/m on a bare scarp of 9 km"}},
+                   "not measured; 0.4e12 N/m on a bare scarp of 9 km", pores_have_water}},
         .measures =
             {{coupling::basin_water_name, "N/m", "weight of the basin's water",
               "weight of the water on the detachment per metre of strike beyond that at the "

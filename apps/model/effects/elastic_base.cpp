@@ -221,11 +221,16 @@ void contribute(const Scene& scene, ModelParts& parts) {
 /// List of what is not in the model, with its size.
 std::string explain_lacks(const Scene& scene, EffectList list) {
     std::vector<Lack> lacks;
+    const ModelParts parts = make_parts(scene);
+    const auto add = [&](const Lack& lack) {
+        if (!lack.what.empty() && !(lack.is_there && lack.is_there(parts)))
+            lacks.push_back(lack);
+    };
     for (const Effect* effect : list)
         if (has_effect(scene, effect->name))
-            std::ranges::copy(effect->lacks, std::back_inserter(lacks));
-        else if (!effect->absence.what.empty())
-            lacks.push_back(effect->absence);
+            std::ranges::for_each(effect->lacks, add);
+        else
+            add(effect->absence);
     lacks.push_back(
         scene.detachment && scene.detachment->footwall_top
             ? Lack{"the weight of what lies on the level ground behind the breakaway, "

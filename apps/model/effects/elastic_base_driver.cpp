@@ -122,6 +122,7 @@ public:
         base_->attach(state);
         if (!request_.mesh_file.empty())
             set_mesh_checksum(state, mesh_checksum_);
+        loads_.prepare(state);
         find_contacts(state, base);
         base_->settle(state, base, physics, execution, progress);
     }

@@ -4,9 +4,12 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "coupling/water_load.hpp"
 #include "dem/numbers/round_off.hpp"
+#include "fluid/dry_ground.hpp"
 #include "fluid/pore_column.hpp"
 
+#include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/toml/pieces.hpp"
@@ -32,8 +35,8 @@ std::vector<Parameter> parameters() {
              between(500, 2500)}),
         {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
          "density of the water",
-         "Raising it lets all discs weigh less: rock is as full of water as sediment, also above "
-         "the water's level."},
+         "Raising it lets all discs below the level weigh less: rock is as full of water as "
+         "sediment."},
         {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
          "viscosity of the water", "Raising it acts as a permeability that is lower by as much."},
         {"compressibility_per_pa", at<&P::compressibility>, "1/Pa", between(1e-12, 1e-6), "",
@@ -61,8 +64,10 @@ std::vector<Parameter> parameters() {
          "Lowering it makes faults in sediment seals."},
         {"level_m", at<&P::level>, "m", ranges::height, "",
          "height of the water above the original surface; default: the level that the basin is "
-         "filled to, 0 where that is a line",
-         "Moves the pressure of water at rest, no excess pressure and no weight."},
+         "filled to, 0 where that is a line. Given, or beside a base that bends, ground above it "
+         "is "
+         "dry",
+         "Lowering it dries the ground above it, which then weighs in full."},
         {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
          "water at rest: buoyancy of sediment and rock, and nothing else",
          "true is the limit of high permeability, at no cost."},
@@ -88,19 +93,58 @@ fluid::MudColumn mud_column(const P& p, const fluid::WetSediment& sediment, doub
     return {fluid::pore_law(p, sediment, gravity), p.permeability, p.viscosity, p.fracture_ratio};
 }
 
+/// The water's level through the run: a stage's is reached evenly, at its end.
+WaterFacts water_facts(const Scene& scene, double start) {
+    WaterFacts water{.level = {}, .density = scene.find<P>()->density};
+    const dem::Calendar calendar = make_calendar(scene);
+    std::vector<dem::TargetStage> heights{{0.0, {{0.0, start}}}};
+    if (const Stages* stages = scene.find<Stages>()) {
+        const dem::Motion motion = make_motion(scene);
+        for (std::size_t k = 0; k < stages->size(); ++k) {
+            const std::optional<double> level = (*stages)[k].water_level;
+            if (!level)
+                continue;
+            water.moves = true;
+            if (const double begins = calendar.age(motion.stages[k].start);
+                begins > heights.back().time)
+                heights.push_back({begins, heights.back().points});
+            heights.push_back({calendar.age(motion.stages[k].end), {{0.0, *level}}});
+        }
+    }
+    water.level = {dem::Target(start, std::move(heights)), calendar};
+    return water;
+}
+
 void contribute(const Scene& scene, ModelParts& parts) {
+    parts.water = water_facts(scene, scene.find<P>()->level.value_or(parts.sediment->level));
     parts.physics.gravity *=
         fluid::buoyant_share(scene.find<P>()->density, parts.sediment->grain_density);
 }
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
-    P p = *scene.find<P>();
-    if (p.hydrostatic)
-        return;
-    p.level = p.level.value_or(parts.sediment->level);
-    dem::add(events,
-             std::make_unique<fluid::PoreFluid>(p, wet_sediment(parts, make_calendar(scene)),
-                                                parts.gravity, make_calendar(scene)));
+    const P& p = *scene.find<P>();
+    const dem::Calendar calendar = make_calendar(scene);
+    const bool bends = bending_base(scene) != nullptr;
+    const bool ends = bends || p.level || parts.water->moves;
+    if (!p.hydrostatic)
+        dem::add(events, std::make_unique<fluid::PoreFluid>(
+                             p, wet_sediment(parts, calendar), parts.gravity, calendar,
+                             fluid::WaterSurface{parts.water->level, ends, bends && p.pushes}));
+    if (ends)
+        dem::add(events, std::make_unique<fluid::DryGround>(
+                             parts.water->level, parts.gravity - parts.physics.gravity,
+                             dem::Schedule{p.interval, calendar}, !p.hydrostatic && p.pushes));
+}
+
+coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts) {
+    const P& p = *scene.find<P>();
+    return coupling::water_load({.level = parts.water->level,
+                                 .density = p.density,
+                                 .grain_density = parts.sediment->grain_density,
+                                 .gravity = parts.gravity,
+                                 .interval = p.interval,
+                                 .wall_x = scene.hanging_wall.length},
+                                make_calendar(scene));
 }
 
 /// Water weighs on every scene's start, its permeability on none.
@@ -138,10 +182,9 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("is {}, allowed: a multiple of the interval of the sediment's loss of "
                            "porosity, {} a, which follows it",
                            text(p.interval), text(parts.sediment->porosity_interval)));
-    if (bending_base(scene))
-        refuse("pore_fluid",
-               "beside a base that bends is not in the program yet: the base would lose the weight "
-               "that water carries; make the base rigid, or leave out [pore_fluid]");
+    if (const BendingBase* base = bending_base(scene))
+        if (const std::string why = objection_to_fill(p.density, *base); !why.empty())
+            refuse("pore_fluid.fluid_density_kg_per_m3", why);
 }
 
 /// Pressure is that of its depth below thick strata only, whose own water is fresh: beside a column
@@ -241,9 +284,9 @@ const Effect& effect() {
         .warning = warning,
         .contribute = contribute,
         .add_events = add_events,
+        .load_bending_base = load_bending_base,
         .explain = explain,
-        .absence = {"pressure and buoyancy of pore water on the discs",
-                    "not measured: [pore_fluid] needs a rigid base"},
+        .absence = {"pressure and buoyancy of pore water on the discs", "@@"},
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();

@@ -1,7 +1,9 @@
 #include "apps/model/effects/pore_fluid_measures.hpp"
 
 #include "apps/model/effects/pore_fluid_well.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
+#include "coupling/water_load.hpp"
 #include "dem/events/energy_account.hpp"
 #include "fluid/columns.hpp"
 #include "fluid/pore_fluid.hpp"
@@ -66,7 +68,7 @@ template <const char* const& name> V remembered(const Observation& now) {
     return fluid ? V(fluid->remembered(name)) : std::nullopt;
 }
 
-V water_error(const Observation& now) {
+V balance_error(const Observation& now) {
     const PoreFluid* const fluid = fluid_in(now);
     if (!fluid)
         return std::nullopt;
@@ -74,6 +76,11 @@ V water_error(const Observation& now) {
     const double known = fluid->remembered(Sums::surface) + fluid->remembered(Sums::vented) +
                          fluid->remembered(Sums::eroded) + fluid->remembered(Sums::left);
     return came > 0.0 ? (came - known) / came : 0.0;
+}
+
+V closure(const Observation& now) {
+    const PoreFluid* const fluid = fluid_in(now);
+    return fluid && fluid->loads_base() ? V(fluid->remembered(Sums::closure)) : std::nullopt;
 }
 
 V push_work(const Observation& now) {
@@ -161,8 +168,9 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          "pore water that went with eroded sediment", remembered<Sums::eroded>},
         {"water_left_m2", "m2", "pore water that is left", "pore water in the sediment",
          remembered<Sums::left>},
-        {"water_error", "1", "error of the water's balance",
-         "water that came less where it went, over it. Round-off", water_error, largest},
+        {water_error, "1", "error of the water's balance",
+         "water that came less where it went, over it. Round-off", balance_error, largest,
+         "below 1e-11"},
         {"lift_capped_share", "1", "sediment as good as afloat",
          "share of sediment discs whose lift was cut to 0.99 of their weight",
          remembered<Sums::capped>, mean},
@@ -171,6 +179,19 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          remembered<Sums::enclosed>},
         {"fill", "1", "mud over the cells that hold it",
          "the mud's own volume over that of the cells of its discs", remembered<Sums::fill>},
+        {fluid_closure, "1", "missing pressure on the base",
+         "what forces of excess pressure on sediment, rock and base lack to a sum of zero, over "
+         "the "
+         "pressure times length on rock and base, which are given it. Where the base bends",
+         closure, largest, "below 0.02"},
+        {coupling::water_load_name, "N/m", "water's weight on the base",
+         "vertical force of the water's pressure, excess pressure too, on the base beyond that at "
+         "the start, downward. Where the base bends"},
+        {coupling::water_force_error_name, "1", "error of the vertical forces of weights and water",
+         "what the base bears, by the discs' weights less lift and by the water's pressure, less "
+         "the "
+         "weight of all that is above it, over that weight. Round-off. Where the base bends",
+         nullptr, largest, "below 1e-9"},
         {"newton_worst", "1", "most iterations of the pressure in a step",
          "greatest number of Newton's steps of a solution so far", remembered<Sums::newton>},
         {"pore_fluid_work_j_per_m", "J/m", "work of pore pressure",

@@ -4,7 +4,9 @@
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
 #include "apps/model/effects/stage_steps.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/base_words.hpp"
+#include "apps/support/words/spelling.hpp"
 #include "dem/base/just_before.hpp"
 #include "dem/base/motion.hpp"
 #include "dem/columns.hpp"
@@ -192,6 +194,18 @@ std::string price_of_pause(const Scene& scene, std::size_t stage) {
                               settle / one.speed);
 }
 
+void check(const Scene& scene, const Refuse& refuse) {
+    const Stages& stages = *scene.find<Stages>();
+    const bool has_water = make_parts(scene).water.has_value();
+    for (std::size_t k = 0; k < stages.size(); ++k)
+        if (stages[k].water_level && !has_water)
+            refuse(
+                fmt::format("stage[{}].water_level_m", k),
+                fmt::format("is {}, but no water acts on the discs; add a table of pore fluid, or "
+                            "leave it out",
+                            text(*stages[k].water_level)));
+}
+
 std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
@@ -309,6 +323,7 @@ const Effect& effect() {
         .parameters = stage_parameters(),
         .items = items_of<StageParameters>,
         .complete = complete_stages,
+        .check = check,
         .add_events = add_events,
         .explain = explain,
         .measures = measures_of_stages(),

@@ -6,6 +6,7 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/measure.hpp"
 #include "dem/base/target_line.hpp"
+#include "dem/base/water_level.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -99,6 +100,13 @@ struct SedimentFacts {
     double deposition_interval = 0.0;     ///< from stratum to stratum, a
 };
 
+/// Water in the pores of all discs, sediment and rock, as effects describe it to each other.
+struct WaterFacts {
+    dem::WaterLevel level = {};
+    double density = 0.0; ///< kg/m^3
+    bool moves = false;   ///< the level, in stages
+};
+
 /// A layer of rock as effects describe it to genesis and to measures.
 struct LayerFacts {
     std::string name;
@@ -116,6 +124,8 @@ struct ModelParts {
     std::optional<dem::BondStrength> bonds;
     std::vector<LayerFacts> layers; ///< by the column `layer`, from 1
     std::optional<SedimentFacts> sediment;
+    std::optional<WaterFacts>
+        water; ///< none: pores are empty, or what fills them weighs on no disc
     /// Sediment younger than this is too loose for a fault: it creeps all over, m of travel.
     double youngest_sediment = 2.0e3;
     /// Diameter of the circle that faults are looked for with, mean disc diameters; none: they are
@@ -223,6 +233,7 @@ struct ItemAddress {
 struct Lack {
     std::string_view what = {};
     std::string_view size = {}; ///< what it does to the uplift of the flank, as measured
+    bool (*is_there)(const ModelParts& parts) = nullptr; ///< in spite of all; null: it is not
 };
 
 struct Effect;
@@ -263,6 +274,9 @@ struct Effect {
     void (*add_events)(const Scene& scene, const ModelParts& parts, dem::Events& events) = nullptr;
     /// It needs a base that bends.
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
+    /// The same of an effect that does not need one, where there is one.
+    coupling::FootwallLoad (*load_bending_base)(const Scene& scene,
+                                                const ModelParts& parts) = nullptr;
     /// The base, of the effect that bends it.
     const BendingBase& (*bending_base)(const std::any& parameters) = nullptr;
     /// Moves the base's nodes; of a scene's effects at most one does.

@@ -27,6 +27,7 @@ struct StageParameters {
     std::optional<double> detachment_friction;
     std::optional<double> sediment_friction;
     dem::SurfaceWork surface_work = dem::SurfaceWork::both;
+    std::optional<double> water_level; ///< m, reached at the stage's end; none: as before
 };
 
 /// Travel of a step of a pause where none is given, m.

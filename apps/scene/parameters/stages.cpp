@@ -144,6 +144,10 @@ const std::vector<Parameter>& stage_parameters() {
          "or "
          "none",
          "With \"none\" what rises is kept, which shows harpoons and null points."},
+        {"water_level_m", at<&P::water_level>, "m", ranges::height, "",
+         "height of the water above the original surface that is reached at the end of the stage, "
+         "evenly; default: it stays",
+         "Lowering it dries the ground above it, which then weighs in full."},
     };
     return parameters;
 }

@@ -1,5 +1,6 @@
 // The overburden of the footwall's rock against a liquid of the same density that rests on it.
 
+#include "coupling/water_load.hpp"
 #include "tests/verification/footwalls.hpp"
 
 #include <gtest/gtest.h>
@@ -18,30 +19,17 @@ using fem::Vector;
 
 constexpr double weight = 2700.0 * standard_gravity; // N/m^3
 
-/// Load of a liquid up to y = 0 on the interface's nodes, from its trace as it is displaced:
-/// pressure times normal, N. The trace's order is linear or quadratic, so that three of Gauss's
-/// points are exact.
+/// Load of a liquid up to y = 0 on the interface's nodes, from its trace as it is displaced, N.
 std::vector<double> liquid_forces(const fem::Footwall& footwall, const std::vector<double>& u) {
-    std::vector<double> forces(u.size(), 0.0);
-    for (const auto& [nodes] : footwall.interface_faces())
-        for (int q = -1; q <= 1; ++q) {
-            const double t = 0.5 + q * 0.3872983346207417, part = (q == 0 ? 8.0 : 5.0) / 18.0;
-            const double shape[] = {(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)};
-            const double slope[] = {4 * t - 3, 4 * t - 1, 4 - 8 * t};
-            Vector along;
-            double y = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vector at = footwall.interface()[nodes[k]].place;
-                y += shape[k] * (at.y + u[2 * nodes[k] + 1]);
-                along.x += slope[k] * (at.x + u[2 * nodes[k]]);
-                along.y += slope[k] * (at.y + u[2 * nodes[k] + 1]);
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                forces[2 * nodes[k]] -= part * shape[k] * weight * y * along.y;
-                forces[2 * nodes[k] + 1] += part * shape[k] * weight * y * along.x;
-            }
-        }
-    return forces;
+    std::vector<double> x, y, ux, uy;
+    for (std::size_t k = 0; k < footwall.interface().size(); ++k) {
+        x.push_back(footwall.interface()[k].place.x);
+        y.push_back(footwall.interface()[k].place.y);
+        ux.push_back(u[2 * k]);
+        uy.push_back(u[2 * k + 1]);
+    }
+    const double everywhere = 2.0 * x.back();
+    return coupling::water_forces({x, y, ux, uy, 2}, 0.0, weight, everywhere);
 }
 
 /// Rock below a liquid of its own density does not feel that the detachment moves: it bends as if

@@ -1,0 +1,138 @@
+// Water in the pores of all discs on a base that bends: what the base bears, and what a scene must
+// not ask of it.
+
+#include "apps/support/error.hpp"
+#include "tests/message_of.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace listric::fem_water_base_test {
+
+namespace {
+
+using nlohmann::json;
+using namespace support;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// 400 discs on a crust of 5 km: strata every 12.5 m, and water as often.
+const std::string scene = small_halfgraben() + R"([extension]
+distance_m = 100.0
+speed_m_per_s = 1.0
+[output]
+interval_m = 25.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+[sedimentation]
+level_m = 0.0
+interval_a = 2500.0
+[compaction]
+[pore_fluid]
+permeability_m2 = 1e-21
+[elastic_base]
+elastic_thickness_m = 1000.0
+skin_thickness_m = 300.0
+left_m = -40000.0
+right_m = 50000.0
+depth_m = 5000.0
+cell_size_m = 400.0
+)";
+
+class WaterOnABase : public SceneRuns {
+protected:
+    json run(const std::string& name, const std::vector<std::string>& set = {},
+             std::optional<double> until = {}, bool resume = false, int threads = 1) const {
+        RunOptions o = options(name);
+        o.until = until;
+        o.resume = resume;
+        o.force = !resume;
+        o.threads = threads;
+        return SceneRuns::run(SceneRuns::load(scene, set), o);
+    }
+
+    std::string refusal(const std::vector<std::string>& set, const std::string& more = "") const {
+        return message_of<SceneError>([&] { SceneRuns::load(scene + more, set); });
+    }
+
+    State end_of(const std::string& name) const {
+        return read_snapshot(list_snapshots(folder / name).back()).state;
+    }
+};
+
+TEST_F(WaterOnABase, BearsTheWeightOfRockAndWaterHoweverItIsRun) {
+    const json once = run("once");
+    EXPECT_LT(std::abs(once["water_force_error"].get<double>()), 1e-9);
+    EXPECT_LT(std::abs(once["water_error"].get<double>()), 1e-11);
+    EXPECT_GT(once["overpressure_ratio_mean"].get<double>(), 0.01);
+    EXPECT_GT(once["fluid_closure"].get<double>(), 0.0);
+    const State end = end_of("once");
+    double pressed = 0.0;
+    for (const double force : end.base_nodes.get<double>("excess_y"))
+        pressed -= force;
+    double lifted = 0.0;
+    for (const double force : end.discs.get<double>("lift"))
+        lifted += force;
+    EXPECT_GT(pressed, 0.0);
+    EXPECT_NEAR(pressed, lifted, 1e-9 * pressed);
+    EXPECT_EQ(run("threads", {}, {}, false, 2)["state_hash"], once["state_hash"]);
+    run("parts", {}, 62.5); // between two windows
+    EXPECT_EQ(run("parts", {}, {}, true)["state_hash"], once["state_hash"]);
+}
+
+/// Water at rest on a base that hardly moves weighs nothing beyond the start's; it falls by 100 m
+/// and comes back.
+TEST_F(WaterOnABase, DryGroundWeighsInFull) {
+    const std::vector<std::string> rest{"pore_fluid.hydrostatic=true"};
+    const json wet = run("wet", rest);
+    std::vector<std::string> falls = rest;
+    falls.push_back("stage=[{distance_m=50.0, water_level_m=-100.0}, {distance_m=50.0, "
+                    "water_level_m=0.0}]");
+    run("low", falls, 50.0);
+    const auto pushed = [&](const std::string& name) {
+        const State end = end_of(name);
+        double sum = 0.0;
+        for (const double push : end.discs.get<double>("push_y"))
+            sum -= push;
+        return sum;
+    };
+    // 100 m of some 3 to 4 km of ground, without pores.
+    const double at_rest = pushed("wet"), low = pushed("low");
+    EXPECT_GT(low, at_rest + 100.0 * 3000.0 * 0.7 * 1030.0 * 9.81);
+    EXPECT_LT(low, at_rest + 100.0 * 5000.0 * 1030.0 * 9.81);
+    const json back = run("low", falls, {}, true);
+    EXPECT_LT(std::abs(back["water_force_error"].get<double>()), 1e-9);
+    EXPECT_NEAR(pushed("low"), at_rest, 0.05 * low); // the ground's roughness by packing
+    EXPECT_NEAR(back["water_load_n_per_m"].get<double>(), wet["water_load_n_per_m"].get<double>(),
+                0.02 * 1030.0 * 9.81 * 100.0 * 4000.0);
+    EXPECT_EQ(run("straight", falls)["state_hash"], back["state_hash"]);
+}
+
+TEST_F(WaterOnABase, RefusesTwoWaters) {
+    EXPECT_EQ(refusal({}, "[basin_water]\n"), "");
+    EXPECT_THAT(refusal({"pore_fluid.level_m=-100"}, "[basin_water]\n"),
+                AllOf(HasSubstr("basin_water.level_m"), HasSubstr("stands at -100"),
+                      HasSubstr("give both the same")));
+    EXPECT_THAT(refusal({"pore_fluid.fluid_density_kg_per_m3=1100"}, "[basin_water]\n"),
+                AllOf(HasSubstr("basin_water.density_kg_per_m3"), HasSubstr("1100")));
+    const std::string stages = "stage=[{distance_m=100.0, water_level_m=-100.0}]";
+    EXPECT_THAT(refusal({stages}, "[basin_water]\n"),
+                AllOf(HasSubstr("basin_water"), HasSubstr("water_level_m")));
+    const std::string dry =
+        std::string(scene).replace(scene.find("[pore_fluid]\npermeability_m2 = 1e-21\n"), 39, "");
+    EXPECT_THAT(message_of<SceneError>([&] { SceneRuns::load(dry, {stages}); }),
+                AllOf(HasSubstr("stage[0].water_level_m"), HasSubstr("no water acts")));
+    EXPECT_THAT(refusal({"pore_fluid.fluid_density_kg_per_m3=2590",
+                         "elastic_base.crust_density_kg_per_m3=2400",
+                         "elastic_base.mantle_density_kg_per_m3=2500"}),
+                HasSubstr("fluid_density_kg_per_m3"));
+}
+
+} // namespace
+} // namespace listric::fem_water_base_test
