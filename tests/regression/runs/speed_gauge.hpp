@@ -67,7 +67,7 @@ inline const Effect& speed_gauge() {
         .address = address_of<P>,
         .parameters =
             {
-                {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_g",
+                {"interval_a", at<&P::interval>, "a", ranges::duration, "Delta t_g",
                  "time between looks at speeds"},
             },
         .add_events =
