@@ -7,6 +7,7 @@
 #include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace listric::effects::stage {
@@ -151,16 +152,18 @@ double PauseRecord::strain_before() const {
 }
 
 StepRecord::StepRecord(const Calendar& calendar, bool base_is_prescribed)
-    : Observer("steps", never), base_is_prescribed_(base_is_prescribed) {
-    for (const SteppedPause& pause : calendar.pauses())
-        for (std::int64_t k = 0; k < pause.steps; ++k)
-            for (const double share : {0.75, 1.0})
-                due_.push_back(pause.start + (static_cast<double>(k) + share) * pause.step);
-}
+    : Observer("steps", never), calendar_(calendar), base_is_prescribed_(base_is_prescribed) {}
 
+/// The last quarter of a step and its end, in turn.
 Travel StepRecord::next_due() const {
-    const auto next = static_cast<std::size_t>(applied);
-    return next < due_.size() ? due_[next] : Travel(std::numeric_limits<double>::infinity());
+    std::int64_t step = applied / 2;
+    for (const SteppedPause& pause : calendar_.pauses()) {
+        if (step < pause.steps)
+            return pause.start +
+                   (static_cast<double>(step) + (applied % 2 == 0 ? 0.75 : 1.0)) * pause.step;
+        step -= pause.steps;
+    }
+    return Travel(std::numeric_limits<double>::infinity());
 }
 
 void StepRecord::begin(State& state) {

@@ -68,7 +68,7 @@ public:
     double last() const { return memory.get<double>("last_m")[0]; } ///< motion, m
 
 private:
-    std::vector<dem::Travel> due_; ///< the last quarter of a step and its end, in turn
+    dem::Calendar calendar_;
     bool base_is_prescribed_;
 };
 
