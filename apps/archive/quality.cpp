@@ -6,7 +6,6 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
-#include "apps/model/effects/stage_steps.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "coupling/water_load.hpp"

@@ -40,18 +40,6 @@ Scene at_level(const Scene& scene, const AccuracyLevel& level) {
     return other;
 }
 
-namespace {
-
-/// Equal steps that are as long as asked for, or shorter.
-SteppedPause stepped(const StageParameters& pause, Travel start) {
-    constexpr double round_off = 1e-9;
-    const double steps = std::max(1.0, std::ceil(*pause.pause / *pause.step - round_off));
-    return {start, Travel(pause.settle.value_or(usual_settling)), std::llround(steps),
-            *pause.pause / steps};
-}
-
-} // namespace
-
 Motion make_motion(const Scene& scene) {
     Motion motion{scene.extension.speed, scene.extension.ramp};
     const Stages* stages = scene.find<Stages>();
@@ -83,19 +71,6 @@ Motion make_motion(const Scene& scene) {
         motion.stages.push_back(made);
     }
     return motion;
-}
-
-Calendar make_calendar(const Scene& scene) {
-    std::vector<SteppedPause> pauses;
-    const std::vector<MotionStage> stages = make_motion(scene).stages;
-    for (std::size_t k = 0; k < stages.size(); ++k)
-        if (const StageParameters& one = (*scene.find<Stages>())[k]; one.pause && one.step)
-            pauses.push_back(stepped(one, stages[k].start));
-    return {scene.extension.rate, std::move(pauses)};
-}
-
-double end_age(const Scene& scene) {
-    return make_calendar(scene).age(Travel(scene.extension.distance));
 }
 
 double greatest_extension(const Scene& scene) {

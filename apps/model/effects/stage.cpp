@@ -3,12 +3,10 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "apps/model/effects/stage_pauses.hpp"
-#include "apps/model/effects/stage_steps.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/base_words.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "dem/base/just_before.hpp"
-#include "dem/base/motion.hpp"
 #include "dem/columns.hpp"
 #include "dem/events/stage_change.hpp"
 
@@ -16,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -77,8 +76,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     if (PauseRecord::is_needed(motion))
         dem::add(events, std::make_unique<PauseRecord>(motion));
     if (const dem::Calendar calendar = make_calendar(scene); !calendar.pauses().empty())
-        dem::add(events, std::make_unique<StepRecord>(
-                             calendar, scene.find<dem::BaseMotionParameters>() != nullptr));
+        dem::add(events,
+                 std::make_unique<StepRecord>(calendar, parts.base_moves && !bending_base(scene)));
     if (const auto turn = turn_of(motion))
         dem::add(events, std::make_unique<TurnRecord>(*turn, regional_in(scene, parts)));
 }
@@ -257,18 +256,6 @@ std::vector<Measure<Observation>> measures_of_stages() {
          "greatest",
          [](const Observation& now) { return in_pause(now, &Unrest::farthest); },
          OverTime::largest},
-        {unsettled_steps, "1", "steps of pauses without rest",
-         "steps of pauses (step_a) in whose last quarter rock moves on by more than a hundredth of "
-         "the mean radius, mean of discs",
-         [](const Observation& now) { return of_steps(now, &StepRecord::unsettled); },
-         OverTime::last, "0"},
-        {"steps", "1", "steps of pauses", "steps of pauses (step_a) that have ended",
-         [](const Observation& now) { return of_steps(now, &StepRecord::steps); }},
-        {step_unrest, "m", "motion at a step's end",
-         "way of rock in the last quarter of the newest step, mean of discs, less that of a base "
-         "that moves as prescribed",
-         [](const Observation& now) { return of_steps(now, &StepRecord::last); },
-         OverTime::largest},
         {"uplift_area_m2", "m2", "area uplifted above the regional",
          "growth since the turn of the area above the regional, over the footwall, too, with what "
          "was eroded, its mass at the hanging wall's density (sediment counts by half): thickness "
@@ -310,6 +297,29 @@ std::vector<Measure<Observation>> measures_of_stages() {
     };
 }
 
+std::vector<Measure<Observation>> measures_of_steps() {
+    return {
+        {unsettled_steps, "1", "steps of pauses without rest",
+         "steps of pauses (step_a) in whose last quarter rock moves on by more than a hundredth of "
+         "the mean radius, mean of discs",
+         [](const Observation& now) { return of_steps(now, &StepRecord::unsettled); },
+         OverTime::last, "0"},
+        {"steps", "1", "steps of pauses", "steps of pauses (step_a) that have ended",
+         [](const Observation& now) { return of_steps(now, &StepRecord::steps); }},
+        {step_unrest, "m", "motion at a step's end",
+         "way of rock in the last quarter of the newest step, mean of discs, less that of a base "
+         "that moves as prescribed",
+         [](const Observation& now) { return of_steps(now, &StepRecord::last); },
+         OverTime::largest},
+    };
+}
+
+std::vector<Measure<Observation>> measures() {
+    std::vector<Measure<Observation>> all = measures_of_stages();
+    std::ranges::move(measures_of_steps(), std::back_inserter(all));
+    return all;
+}
+
 } // namespace
 
 Works works() { return {}; }
@@ -326,7 +336,7 @@ const Effect& effect() {
         .check = check,
         .add_events = add_events,
         .explain = explain,
-        .measures = measures_of_stages(),
+        .measures = measures(),
     };
     return effect;
 }

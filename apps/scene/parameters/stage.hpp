@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/calendar.hpp"
 #include "dem/genesis/detachment.hpp"
 #include "dem/motion.hpp"
 
@@ -34,6 +35,9 @@ struct StageParameters {
 inline constexpr double usual_settling = 200.0;
 
 using Stages = std::vector<StageParameters>;
+
+/// A pause by equal steps that are as long as asked for, or shorter.
+dem::SteppedPause stepped(const StageParameters& pause, dem::Travel start);
 
 /// Motion of base and right wall.
 dem::Motion make_motion(const Scene& scene);

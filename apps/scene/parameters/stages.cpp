@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace listric {
 
@@ -150,6 +151,26 @@ const std::vector<Parameter>& stage_parameters() {
          "Lowering it dries the ground above it, which then weighs in full."},
     };
     return parameters;
+}
+
+SteppedPause stepped(const StageParameters& pause, Travel start) {
+    constexpr double round_off = 1e-9;
+    const double steps = std::max(1.0, std::ceil(*pause.pause / *pause.step - round_off));
+    return {start, Travel(pause.settle.value_or(usual_settling)), std::llround(steps),
+            *pause.pause / steps};
+}
+
+Calendar make_calendar(const Scene& scene) {
+    std::vector<SteppedPause> pauses;
+    const std::vector<MotionStage> stages = make_motion(scene).stages;
+    for (std::size_t k = 0; k < stages.size(); ++k)
+        if (const StageParameters& one = (*scene.find<Stages>())[k]; one.pause && one.step)
+            pauses.push_back(stepped(one, stages[k].start));
+    return {scene.extension.rate, std::move(pauses)};
+}
+
+double end_age(const Scene& scene) {
+    return make_calendar(scene).age(Travel(scene.extension.distance));
 }
 
 void complete_stages(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {
