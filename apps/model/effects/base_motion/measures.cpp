@@ -107,7 +107,8 @@ std::vector<Measure<Observation>> measures_of_fold() {
          }},
         {"trishear_apical_angle_deg", "deg", "trishear: apical angle",
          "trishear of the basement's fault and slip that comes closest to the tops of four marker "
-         "horizons, at a fifth to four fifths of the cover: angle of its triangle",
+         "horizons, at a fifth to four fifths of the cover, its tip beginning at the base of the "
+         "cover: angle of its triangle",
          [](const Observation& now) {
              return of_trishear(now, [](const TrishearFit& fit, const SlippedFault&) {
                  return fit.apical_angle * degrees;
