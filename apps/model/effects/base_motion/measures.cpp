@@ -49,7 +49,7 @@ std::vector<Measure<Observation>> measures_of_offset() {
              return of_fault(now, [](Fault f, Record) { return std::optional(f.slip); });
          }},
         {"surface_offset_share", "1", "share of the slip on a step at the surface",
-         "of the last tenth of a mean diameter of slip, the share on one step at the top of the "
+         "share of the last tenth of a mean diameter of slip on one step at the top of the "
          "rock: the greatest difference of mean displacements, over three diameters each and five "
          "apart",
          [](const Observation& now) {
@@ -115,13 +115,13 @@ std::vector<Measure<Observation>> measures_of_fold() {
              });
          }},
         {"trishear_propagation_ratio", "1", "trishear: propagation over slip",
-         "of that trishear, way of the tip up the fault over slip (P/S)",
+         "way of that trishear's tip up the fault over slip (P/S)",
          [](const Observation& now) {
              return of_trishear(
                  now, [](const TrishearFit& fit, const SlippedFault&) { return fit.propagation; });
          }},
         {"trishear_tip_z_m", "m", "trishear: depth of the tip",
-         "of that trishear, depth of the tip below the ground at the start; below 0 above it",
+         "depth of that trishear's tip below the ground at the start; below 0 above it",
          [](const Observation& now) {
              return of_trishear(now, [](const TrishearFit& fit, const SlippedFault& fault) {
                  return -fit.tip_of(fault).y;

@@ -32,14 +32,17 @@ Point trishear_velocity(double along, double across, double slope) {
     return {0.5 * (share + 1.0), 0.25 * slope * (share * share - 1.0)};
 }
 
-/// The top that trishear makes of a level.
+/// The top that trishear makes of a level, of points that lie close where the fault meets it.
 std::vector<Point> predicted_top(double level, const Trishear& shear, const SlippedFault& fault) {
     constexpr int pieces = 120;
+    const double middle = fault.foot.x - (level - fault.foot.y) / tangent(fault.dip);
+    const double width = (reach + 1.5) * fault.height;
     std::vector<Point> top;
-    for (int k = 0; k <= pieces; ++k)
-        top.push_back(
-            carried({fault.foot.x + (reach + 0.5) * fault.height * (2.0 * k / pieces - 1.0), level},
-                    shear, fault));
+    for (int k = 0; k <= pieces; ++k) {
+        const double place = 2.0 * k / pieces - 1.0;
+        top.push_back(carried({middle + width * (0.2 * place + 0.8 * place * place * place), level},
+                              shear, fault));
+    }
     return top;
 }
 
