@@ -173,14 +173,14 @@ TEST_F(BasementFault, UpliftNeedsNoDetachment) {
 TEST_F(BasementFault, RefusesWhatCannotBeCombined) {
     const std::string normal = fault("normal", "60.0");
     EXPECT_THAT(refusal(small_halfgraben() + "[gravity]\n" + normal),
-                AllOf(HasSubstr("small.toml:"), HasSubstr("base_motion.fault_x_m: is 2000.0 beside "
+                AllOf(HasSubstr("small.toml:"), HasSubstr("base_motion.fault_x_m: is 2000 beside "
                                                           "[detachment]; a fault of the basement "
                                                           "cuts a flat base")));
     EXPECT_THAT(refusal(box + normal + "uplift = [[0.0, 1.0]]\n"),
-                HasSubstr("base_motion.fault_x_m: is 2000.0 beside uplift, shift or csv"));
+                HasSubstr("base_motion.fault_x_m: is 2000 beside uplift, shift or csv"));
     EXPECT_THAT(refusal(box + normal + "[elastic_base]\n"), HasSubstr("needs [detachment]"));
     EXPECT_THAT(refusal(box + normal + "[[stage]]\ndistance_m = 60.0\n"),
-                HasSubstr("base_motion.fault_slip_m: is 60.0 beside [[stage]]"));
+                HasSubstr("base_motion.fault_slip_m: is 60 beside [[stage]]"));
     EXPECT_THAT(refusal(box + fault("normal", "60.0", "") + "[stretching]\n"),
                 HasSubstr("base_motion.fault_slip_m: is missing; beside [stretching]"));
     EXPECT_THAT(
@@ -189,18 +189,18 @@ TEST_F(BasementFault, RefusesWhatCannotBeCombined) {
     EXPECT_THAT(refusal(box + fault("normal", "60.0", "")),
                 HasSubstr("base_motion.fault_slip_m: is missing; needs the slip at the end"));
     EXPECT_THAT(refusal(box + "[base_motion]\nfault_slip_m = 10.0\n"),
-                HasSubstr("base_motion.fault_slip_m: is 10.0, but no fault slips; add fault_x_m"));
+                HasSubstr("base_motion.fault_slip_m: is 10, but no fault slips; add fault_x_m"));
     EXPECT_THAT(refusal(box + normal + "friction = 0.2\n[stretching]\n"),
                 HasSubstr("base_motion.friction: is 0.2 beside [stretching]"));
     EXPECT_THAT(refusal(box + fault("normal", "95.0")), HasSubstr("base_motion.fault_dip_deg"));
     EXPECT_THAT(refusal(box + fault("reverse", "30.0", "3000.0")),
                 HasSubstr("the block on the right comes to x = -598"));
     EXPECT_THAT(refusal(box + "[base_motion]\nfault_x_m = 4000.0\nfault_slip_m = 10.0\n"),
-                HasSubstr("base_motion.fault_x_m: is 4000.0, allowed: above 0 and below "
-                          "hanging_wall.length_m = 4000.0"));
+                HasSubstr("base_motion.fault_x_m: is 4000, allowed: above 0 and below "
+                          "hanging_wall.length_m = 4000"));
     EXPECT_THAT(
         message_of<SceneError>([&] { load(box + normal, {"extension.distance_m=70.0"}); }, ""),
-        HasSubstr("extension.distance_m: is 70.0 beside base_motion.fault_slip_m = 60.0"));
+        HasSubstr("extension.distance_m: is 70 beside base_motion.fault_slip_m = 60"));
 }
 
 TEST_F(BasementFault, ShippedSceneBreaksTheSurface) {
