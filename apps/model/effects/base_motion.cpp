@@ -207,7 +207,8 @@ const Effect& effect() {
                  "displacement of the detachment to the right, given as uplift is",
                  "Moves the detachment sideways under the discs."},
                 {"fault_x_m", at<&P::fault_x>, "m", between(-1e7, 1e7), "",
-                 "where a fault of the basement, which dips to the right, meets the base of the "
+                 "place where a fault of the basement, which dips to the right, meets the base of "
+                 "the "
                  "cover; without [detachment]. The block on its right slips, and takes the right "
                  "wall along",
                  "Moves the fault along the section; leave it several thicknesses from walls."},

@@ -49,7 +49,7 @@ std::vector<Measure<Observation>> measures_of_offset() {
              return of_fault(now, [](Fault f, Record) { return std::optional(f.slip); });
          }},
         {"surface_offset_share", "1", "share of the slip on a step at the surface",
-         "of the last tenth of a mean diameter of slip, the share on one step at the top of the "
+         "share of the last tenth of a mean diameter of slip on one step at the top of the "
          "rock: the greatest difference of mean displacements, over three diameters each and five "
          "apart",
          [](const Observation& now) {
@@ -107,20 +107,21 @@ std::vector<Measure<Observation>> measures_of_fold() {
          }},
         {"trishear_apical_angle_deg", "deg", "trishear: apical angle",
          "trishear of the basement's fault and slip that comes closest to the tops of four marker "
-         "horizons, at a fifth to four fifths of the cover: angle of its triangle",
+         "horizons, at a fifth to four fifths of the cover, its tip beginning at the base of the "
+         "cover: angle of its triangle",
          [](const Observation& now) {
              return of_trishear(now, [](const TrishearFit& fit, const SlippedFault&) {
                  return fit.apical_angle * degrees;
              });
          }},
         {"trishear_propagation_ratio", "1", "trishear: propagation over slip",
-         "of that trishear, way of the tip up the fault over slip (P/S)",
+         "way of that trishear's tip up the fault over slip (P/S)",
          [](const Observation& now) {
              return of_trishear(
                  now, [](const TrishearFit& fit, const SlippedFault&) { return fit.propagation; });
          }},
         {"trishear_tip_z_m", "m", "trishear: depth of the tip",
-         "of that trishear, depth of the tip below the ground at the start; below 0 above it",
+         "depth of that trishear's tip below the ground at the start; below 0 above it",
          [](const Observation& now) {
              return of_trishear(now, [](const TrishearFit& fit, const SlippedFault& fault) {
                  return -fit.tip_of(fault).y;

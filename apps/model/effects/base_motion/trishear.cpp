@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double degree = pi / 180.0;
-constexpr int steps = 40;     ///< of the slip
+constexpr int steps = 30;     ///< of the slip
 constexpr double reach = 2.5; ///< of the fit on either side of the fault, over its height
 constexpr double most_propagation = 10.0;
 
@@ -32,14 +32,17 @@ Point trishear_velocity(double along, double across, double slope) {
     return {0.5 * (share + 1.0), 0.25 * slope * (share * share - 1.0)};
 }
 
-/// The top that trishear makes of a level.
+/// The top that trishear makes of a level, of points that lie close where the fault meets it.
 std::vector<Point> predicted_top(double level, const Trishear& shear, const SlippedFault& fault) {
-    constexpr int pieces = 60;
+    constexpr int pieces = 120;
+    const double middle = fault.foot.x - (level - fault.foot.y) / tangent(fault.dip);
+    const double width = (reach + 1.5) * fault.height;
     std::vector<Point> top;
-    for (int k = 0; k <= pieces; ++k)
-        top.push_back(
-            carried({fault.foot.x + (reach + 0.5) * fault.height * (2.0 * k / pieces - 1.0), level},
-                    shear, fault));
+    for (int k = 0; k <= pieces; ++k) {
+        const double place = 2.0 * k / pieces - 1.0;
+        top.push_back(carried({middle + width * (0.2 * place + 0.8 * place * place * place), level},
+                              shear, fault));
+    }
     return top;
 }
 
@@ -57,8 +60,8 @@ double height_above(const std::vector<Point>& line, Point p) {
     return std::isfinite(nearest) ? nearest : 0.0;
 }
 
-/// Heights of tops above those of trishear, for Eigen: angle, propagation and tip by unknowns that
-/// may be anything.
+/// Heights of tops above those of trishear, for Eigen: angle and propagation by unknowns that may
+/// be anything.
 struct TopMisfits {
     using Scalar = double;
     using InputType = VectorXd;
@@ -70,7 +73,7 @@ struct TopMisfits {
     const SlippedFault& fault;
     std::size_t points;
 
-    int inputs() const { return 3; }
+    int inputs() const { return 2; }
     int values() const { return static_cast<int>(points); }
 
     static constexpr double least_angle = 5.0 * degree, most_angle = 170.0 * degree;
@@ -79,17 +82,16 @@ struct TopMisfits {
         const auto between = [](double low, double high, double unknown) {
             return low + (high - low) * 0.5 * (1.0 + sine(unknown));
         };
-        return {between(least_angle, most_angle, x(0)), between(0.0, most_propagation, x(1)),
-                fault.height * x(2)};
+        return {between(least_angle, most_angle, x(0)), between(0.0, most_propagation, x(1))};
     }
 
     VectorXd from(const Trishear& shear) const {
         const auto unknown = [](double low, double high, double value) {
             return arc_sine(2.0 * (value - low) / (high - low) - 1.0);
         };
-        VectorXd x(3);
+        VectorXd x(2);
         x << unknown(least_angle, most_angle, shear.apical_angle),
-            unknown(0.0, most_propagation, shear.propagation), shear.tip / fault.height;
+            unknown(0.0, most_propagation, shear.propagation);
         return x;
     }
 
@@ -108,7 +110,7 @@ struct TopMisfits {
 } // namespace
 
 Point Trishear::tip_of(const SlippedFault& fault) const {
-    const double way = tip + propagation * std::abs(fault.slip);
+    const double way = propagation * std::abs(fault.slip);
     return {fault.foot.x - way * cosine(fault.dip), fault.foot.y + way * sine(fault.dip)};
 }
 
@@ -119,7 +121,7 @@ Point carried(Point p, const Trishear& shear, const SlippedFault& fault) {
     const double slope = tangent(0.5 * shear.apical_angle);
     const double step = -fault.slip / steps, advance = shear.propagation * std::abs(step);
     for (int k = 0; k < steps; ++k) { // midpoint rule
-        const double tip = shear.tip + (k + 0.5) * advance;
+        const double tip = (k + 0.5) * advance;
         const Point first = trishear_velocity(q.x - (tip - 0.5 * advance), q.y, slope);
         const Point v =
             trishear_velocity(q.x + 0.5 * step * first.x - tip, q.y + 0.5 * step * first.y, slope);
@@ -140,16 +142,18 @@ std::optional<TrishearFit> fit_trishear(std::span<const MarkerTop> tops,
     // Steps of the gradients cross some pieces of the lines, whose corners then do not matter.
     constexpr double square_of_step = 1e-6;
     std::optional<TrishearFit> best;
-    for (const double propagation : {1.0, 2.5, 5.0}) {
-        Gradients misfits(TopMisfits{tops, fault, points}, square_of_step);
-        VectorXd x = misfits.from({60.0 * degree, propagation, 0.05 * fault.height});
-        Eigen::LevenbergMarquardt<Gradients> solver(misfits);
-        solver.parameters.maxfev = 80;
-        solver.minimize(x);
-        const double misfit = std::sqrt(solver.fvec.squaredNorm() / static_cast<double>(points));
-        if (std::isfinite(misfit) && (!best || misfit < best->misfit))
-            best = TrishearFit{misfits.at(x), misfit};
-    }
+    for (const double angle : {40.0, 90.0})
+        for (const double propagation : {0.5, 2.0, 4.0}) {
+            Gradients misfits(TopMisfits{tops, fault, points}, square_of_step);
+            VectorXd x = misfits.from({angle * degree, propagation});
+            Eigen::LevenbergMarquardt<Gradients> solver(misfits);
+            solver.parameters.maxfev = 60;
+            solver.minimize(x);
+            const double misfit =
+                std::sqrt(solver.fvec.squaredNorm() / static_cast<double>(points));
+            if (std::isfinite(misfit) && (!best || misfit < best->misfit))
+                best = TrishearFit{misfits.at(x), misfit};
+        }
     return best;
 }
 

@@ -17,9 +17,8 @@ namespace listric::effects::base_motion {
 struct Trishear {
     double apical_angle = 1.0; ///< of the triangle, rad
     double propagation = 2.0;  ///< of the tip up the fault, over slip: P/S
-    double tip = 0.0;          ///< way up the fault to the tip before slip, from its foot, m
 
-    /// Where the tip is now.
+    /// Where the tip is now; before slip it was at the fault's foot, the cover being whole.
     dem::Point tip_of(const SlippedFault& fault) const;
 };
 
@@ -36,8 +35,9 @@ struct TrishearFit : Trishear {
     double misfit = 0.0; ///< root mean square of vertical distances, m
 };
 
-/// Angle, propagation and tip by which trishear of a known fault and slip comes closest to tops
-/// (Levenberg-Marquardt from several starts). None of fewer points than 8.
+/// Angle and propagation by which trishear of a known fault and slip comes closest to tops
+/// (Levenberg-Marquardt from several starts). Were the tip's first place free, too, rough tops
+/// would trade it for propagation. None of fewer points than 8.
 std::optional<TrishearFit> fit_trishear(std::span<const MarkerTop> tops, const SlippedFault& fault);
 
 /// Tops of the rock at a fifth to four fifths of its thickness: discs that began within half a mean
