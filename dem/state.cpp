@@ -2,7 +2,6 @@
 
 #include "dem/columns.hpp"
 #include "dem/numbers/hash.hpp"
-#include "dem/rolling.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -135,7 +134,9 @@ void reorder_discs(State& state, std::span<const std::int32_t> order) {
     state.discs.reorder(order);
 
     ContactColumns contacts = contact_columns(state);
-    const std::span<double> rolling = rolling_moments(state.contacts);
+    std::span<double> rolling;
+    if (state.contacts.has(columns::rolling_moment))
+        rolling = state.contacts.get(columns::rolling_moment);
     std::vector<std::int32_t> kept;
     for (std::size_t c = 0; c < contacts.first.size(); ++c) {
         std::int32_t& first = contacts.first[c];

@@ -29,6 +29,34 @@ double shear_energy(double force, double slip_rate, double stiffness_times_step,
            stiffness_times_step;
 }
 
+/// Energy of the springs against rolling.
+double rolling_energy(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    const double dt = state.clock.time_step;
+    const PairParameters pairs(state.materials, dt);
+    const auto moments = rolling_moments(state.contacts),
+               of_base = rolling_moments(state.base_contacts);
+    double energy = 0.0;
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double lever = d.radius[i] * d.radius[j] / (d.radius[i] + d.radius[j]);
+        energy += shear_energy(
+            moments[k], d.spin[j] - d.spin[i],
+            rolling_stiffness_times_step(pairs(d.material[i], d.material[j]), lever), dt);
+    }
+    for (std::size_t k = 0; k < of_base.size(); ++k) {
+        const auto i = static_cast<std::size_t>(b.disc[k]);
+        const ContactParameters p =
+            base_contact_parameters(base.material, state.materials[d.material[i]], dt);
+        energy +=
+            shear_energy(of_base[k], d.spin[i], rolling_stiffness_times_step(p, d.radius[i]), dt);
+    }
+    return energy;
+}
+
 } // namespace
 
 StoredEnergy stored_energy(const State& state, const RigidBase& base, double gravity) {
@@ -39,8 +67,6 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
     const double dt = clock.time_step;
     const Pushes pushes(state);
     const RadiusRates radii(state);
-    const auto rolling = rolling_moments(state.contacts),
-               base_rolling = rolling_moments(state.base_contacts);
     StoredEnergy energy;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
@@ -68,12 +94,8 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const double slip_rate = (dvy * dx - dvx * dy) / distance -
                                  (d.radius[i] - 0.5 * now) * d.spin[i] -
                                  (d.radius[j] - 0.5 * now) * d.spin[j];
-        energy.shear_strain += shear_energy(
-            c.shear_force[k], slip_rate, static_cast<double>(p.shear_stiffness_times_step), dt);
-        if (!rolling.empty())
-            energy.shear_strain += shear_energy(
-                rolling[k], d.spin[j] - d.spin[i],
-                rolling_stiffness_times_step(p, d.radius[i] * d.radius[j] / reach), dt);
+        energy.shear_strain += shear_energy(c.shear_force[k], slip_rate,
+                                            static_cast<double>(p.shear_stiffness_times_step), dt);
     }
 
     const BaseInstant instant = base_instant(base, clock);
@@ -107,13 +129,10 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
             energy.normal_strain +=
                 normal_energy(d.radius[i] - radii[i] * dt - foot_before->distance,
                               d.radius[i] - motion->foot.distance, false, p);
-        energy.shear_strain +=
-            shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0,
-                         static_cast<double>(p.shear_stiffness_times_step), dt);
-        if (!base_rolling.empty())
-            energy.shear_strain += shear_energy(base_rolling[k], disc.spin,
-                                                rolling_stiffness_times_step(p, disc.radius), dt);
+        energy.shear_strain += shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0,
+                                            static_cast<double>(p.shear_stiffness_times_step), dt);
     }
+    energy.shear_strain += rolling_energy(state, base);
     return energy;
 }
 

@@ -49,8 +49,7 @@ void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, const 
         node_contact.force = node_contact_force(
             *contact.surface, nodes, now,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
-            contact.parameters, contact.shear_force, node_contact.place,
-            moment);
+            contact.parameters, contact.shear_force, node_contact.place, moment);
         if constexpr (rolls<Rolling>)
             strip.node_rolling[k] = moment;
         const BaseContactForce& f = node_contact.force.force;

@@ -39,8 +39,8 @@ struct Kernels {
 };
 
 /// The cycle is compiled for contacts with and without bonds, friction and resistance to rolling,
-/// and chosen when contacts are packed: bonds never form within a cycle. Ghosts of other ranks count
-/// in no maximum.
+/// and chosen when contacts are packed: bonds never form within a cycle. Ghosts of other ranks
+/// count in no maximum.
 Kernels choose_kernels(Cycle level, ContactLaw law, DampedAgainst motion, bool has_ghosts);
 
 } // namespace listric::dem::fast

@@ -198,9 +198,9 @@ template <ContactLaw law>
         }
         if constexpr (law.rolls) {
             const Lanes lever = radius_i * radius_j / reach;
-            const Lanes turned = load(rolling->moment + start) -
-                                 load(block.shear_stiffness_times_step + start) *
-                                     (lever * lever) * (spin_j - spin_i);
+            const Lanes turned =
+                load(rolling->moment + start) - load(block.shear_stiffness_times_step + start) *
+                                                    (lever * lever) * (spin_j - spin_i);
             const Lanes limit = load(rolling->friction + start) * lever * elastic;
             const Lanes raised = turned < -limit ? -limit : turned;
             const Lanes clipped = limit < raised ? limit : raised;
@@ -357,8 +357,8 @@ template <ContactLaw law, bool has_ghosts> Kernels kernels_of(DampedAgainst moti
     if (motion == mean_motion)
         return {boundary, &sweep<law, mean_motion, has_ghosts>,
                 &sweep<law, mean_motion_sampled, has_ghosts>, &sweep<law, rest, has_ghosts>};
-    const auto any = motion == stretching ? &sweep<law, stretching, has_ghosts>
-                                          : &sweep<law, rest, has_ghosts>;
+    const auto any =
+        motion == stretching ? &sweep<law, stretching, has_ghosts> : &sweep<law, rest, has_ghosts>;
     return {boundary, any, any, any};
 }
 

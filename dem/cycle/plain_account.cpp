@@ -39,8 +39,7 @@ void PlainAccount::enter(const BaseContact& contact) {
         flows_.friction += slip_loss(before, before, after, stiffness_times_step, dt);
         return;
     }
-    const double trial =
-        before - stiffness_times_step * motion->slip_rate;
+    const double trial = before - stiffness_times_step * motion->slip_rate;
     flows_.friction += slip_loss(before, trial, after, stiffness_times_step, dt);
 
     // The step before this force and the one after it. Slip knows the speed of the base a step

@@ -55,7 +55,7 @@ Command add_validate(CLI::App& program) {
                   "docs/explain/validation.md",
                   {{{"validate --accuracy draft --seeds 2", "two seeds at half the resolution"},
                     {"validate --only lis2 --seeds 51-56", "add these seeds to the record"},
-                    {"validate --plan my-plan.toml", "your own runs and expectations"}}}});
+                    {"validate --plan benchmarks", "numbers of other works, or your own plan"}}}});
     command
         ->add_option("--accuracy", request->accuracy,
                      fmt::format("resolution of the runs: {}", fmt::join(accuracy_names(), ", ")))
@@ -69,16 +69,18 @@ Command add_validate(CLI::App& program) {
     add_count(*command, "-j,--jobs", request->jobs, "runs at a time", 1, 1024);
     command->add_option("--runs", request->runs, "folder of the runs")
         ->type_name("DIR")
-        ->default_str("out/validation-LEVEL");
+        ->default_str("out/PLAN-LEVEL");
     command->add_option("-o,--output", request->output, "file of the document")
         ->type_name("FILE")
-        ->default_str("validation.md beside the runs");
+        ->default_str("PLAN.md beside the runs");
     add_words(*command, "--only", "EXPERIMENT", request->only,
               "run and measure this experiment; repeatable");
     command->get_option("--only")->default_str("all");
-    command->add_option("--plan", request->plan, "runs and expectations, a TOML file")
-        ->type_name("FILE")
-        ->default_str("apps/studies/validation.toml");
+    command
+        ->add_option("--plan", request->plan,
+                     "runs and expectations: a name in apps/studies, or a TOML file")
+        ->type_name("PLAN")
+        ->default_str(request->plan);
     add_threads(*command, request->threads);
     command->add_flag("--remeasure", request->remeasure, "measure all runs again");
     command->add_flag("--without-runs", request->without_runs, "use only the runs that exist");

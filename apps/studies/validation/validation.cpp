@@ -59,8 +59,7 @@ Origin finished_run(const fs::path& folder, const std::string& accuracy, int see
 }
 
 ValidationPlan plan_of(const ValidationRequest& request) {
-    return load_validation_plan(request.plan.empty() ? resource_folder() / "studies/validation.toml"
-                                                     : request.plan);
+    return load_validation_plan(validation_plans.find(request.plan));
 }
 
 void check_accuracy(const std::string& accuracy) {
@@ -114,20 +113,28 @@ std::vector<int> seeds_of_document(const ValidationRequest& request, const Valid
     return std::ranges::includes(plan.seeds, asked) ? plan.seeds : asked;
 }
 
+/// A plan's name where it is on the shelf; one of the user's own goes where the shipped one does.
+std::string plan_stem(const ValidationRequest& request) {
+    return is_path(request.plan) ? "validation" : request.plan;
+}
+
+/// A plan's file, for people.
+std::string plan_name(const ValidationRequest& request) {
+    return is_path(request.plan) ? request.plan : "apps/studies/" + request.plan + ".toml";
+}
+
 /// Drives runs, measures and pictures; what they say is validation_report's.
 class Validation {
 public:
     Validation(const ValidationRequest& request, const ValidationPlan& plan)
         : request_(request),
-          runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
-                                     : request.runs),
-          document_(request.output.empty() ? runs_ / "validation.md" : request.output),
+          runs_(request.runs.empty()
+                    ? fs::path(fmt::format("out/{}-{}", plan_stem(request), request.accuracy))
+                    : request.runs),
+          document_(request.output.empty() ? runs_ / (plan_stem(request) + ".md") : request.output),
           names_(chosen_runs(plan, request.only)),
           seeds_(seeds_of_call(request, plan)), findings_{.plan = plan,
-                                                          .plan_name =
-                                                              request.plan.empty()
-                                                                  ? "apps/studies/validation.toml"
-                                                                  : request.plan.string(),
+                                                          .plan_name = plan_name(request),
                                                           .store = store_,
                                                           .accuracy = request.accuracy,
                                                           .seeds = seeds_of_document(request, plan),
@@ -177,7 +184,7 @@ private:
             for (const ValidationExperiment& x : findings_.plan.experiments)
                 for (const ValidationPicture& picture : x.pictures)
                     written.push_back({beside / (picture.name + ".png"), "Listric"});
-        const fs::path read[]{request_.plan};
+        const fs::path read[]{validation_plans.find(request_.plan)};
         require_own(written, read);
     }
 

@@ -12,14 +12,14 @@ namespace listric {
 /// Its output is the document; empty: validation.md beside the runs.
 struct ValidationRequest : ManyRuns {
     std::string accuracy = "standard";
-    std::vector<int> seeds;        ///< that this call runs and measures; empty: those of the plan
-    int number = 0;                ///< of the plan's seeds, the first ones; 0: all
-    std::filesystem::path runs;    ///< folder of the runs; empty: out/validation-ACCURACY
-    std::filesystem::path plan;    ///< empty: apps/studies/validation.toml
-    std::vector<std::string> only; ///< experiments; empty: all
-    bool remeasure = false;        ///< even runs that are measured already
-    bool without_runs = false;     ///< takes the runs that are there
-    bool mixed = false;            ///< adds to a record of other definitions or parameters
+    std::vector<int> seeds;          ///< that this call runs and measures; empty: those of the plan
+    int number = 0;                  ///< of the plan's seeds, the first ones; 0: all
+    std::filesystem::path runs;      ///< folder of the runs; empty: out/PLAN-ACCURACY
+    std::string plan = "validation"; ///< a name in apps/studies, or a path
+    std::vector<std::string> only;   ///< experiments; empty: all
+    bool remeasure = false;          ///< even runs that are measured already
+    bool without_runs = false;       ///< takes the runs that are there
+    bool mixed = false;              ///< adds to a record of other definitions or parameters
 };
 
 /// Makes the runs that are not recorded, measures them from their snapshots and writes the document

@@ -22,9 +22,6 @@ using namespace dem;
 
 namespace {
 
-const Shelf validation_shelf{"validation plan", "it needs [[run]] and [[experiment]]", "",
-                             "studies"};
-
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string_view> kinds = {"faults", "kinematics", "conservation"};
 const std::vector<std::string_view> verdicts = {"no run yet", "reported",  "no case", "shown",
@@ -246,7 +243,7 @@ PlanTable<ValidationText> validation_table() {
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
-    const toml::table document = read_document(validation_shelf, file);
+    const toml::table document = read_document(validation_plans, file);
     const Entry top{document, ""};
     const ValidationText text = validation_table().read(top);
     ValidationPlan plan;
@@ -255,7 +252,7 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     if (const std::string& other = text.extends; !other.empty()) {
         if (extended)
             fail({*document.get("extends"), "extends"}, "is of a plan that is extended itself");
-        known = read_plan(validation_shelf.find(
+        known = read_plan(validation_plans.find(
                               is_path(other) ? (file.parent_path() / other).string() : other),
                           true)
                     .experiments;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/scene/toml/shelf.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,6 +11,10 @@
 #include <vector>
 
 namespace listric {
+
+/// Where the program's plans are.
+inline constexpr Shelf validation_plans{"validation plan", "it needs [[run]] and [[experiment]]",
+                                        "", "studies"};
 
 /// A run that the validation needs, in one folder per seed.
 struct ValidationRun {

@@ -47,6 +47,20 @@ TEST(Law, ASpringWithoutStiffnessInSeriesGivesNone) {
     EXPECT_FLOAT_EQ(contact_parameters(smooth, rough, 0.25).normal_stiffness, 1.5e9f);
 }
 
+TEST(Law, RollingResistsUpToItsFriction) {
+    Material a{4.0, 4.0, 0.5, true}, b = a;
+    a.rolling_friction = 0.25;
+    b.rolling_friction = 0.75;
+    EXPECT_EQ(contact_parameters(a, b, 1.0).rolling_friction, 0.25f); // the smaller
+    EXPECT_EQ(contact_parameters(b, b, 1.0).rolling_friction, 0.5f);  // no more than friction
+    EXPECT_EQ(contact_parameters(a, Material{}, 1.0).rolling_friction, 0.0f);
+    const ContactParameters p{1024.0f, 16.0f, 0.5f, 0.25f};
+    EXPECT_EQ(rolling_moment(3.0, 0.5, 2.0, 128.0, p), 3.0 - 16.0 * 4.0 * 0.5);
+    EXPECT_EQ(rolling_moment(3.0, -9.0, 2.0, 128.0, p), 0.25 * 2.0 * 128.0);
+    EXPECT_EQ(rolling_moment(3.0, 9.0, 2.0, 128.0, p), -0.25 * 2.0 * 128.0);
+    EXPECT_EQ(rolling_moment(3.0, 0.5, 2.0, 0.0, p), 0.0); // apart or bonded
+}
+
 TEST(Law, CompressionAndShearAreElastic) {
     const Outcome o = contact(0.25, -0.5, 3.0, false);
     EXPECT_EQ(o.normal, 256.0);

@@ -139,6 +139,11 @@ TEST_F(MaterialFileTest, WhatIsReadAndWritten) {
     const RockMaterial sand = load_material(write(rock_text, "sand.toml"));
     EXPECT_FALSE(sand.bonds);
     EXPECT_FALSE(sand.material.bondable);
+    EXPECT_EQ(sand.material.rolling_friction, 0.0);
+    const RockMaterial rolls =
+        load_material(write(rock_text + "rolling_friction = 0.1\n", "rolls.toml"));
+    EXPECT_EQ(rolls.material.rolling_friction, 0.1);
+    EXPECT_EQ(load_material(write(to_toml(rolls), "again.toml")).material.rolling_friction, 0.1);
     EXPECT_FALSE(load_material(write(to_toml(sand), "again.toml")).bonds);
 }
 
