@@ -183,7 +183,7 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          "what forces of excess pressure on sediment, rock and base lack to a sum of zero, over "
          "the "
          "pressure times length on rock and base, which are given it. Where the base bends",
-         closure, largest, "below 0.02"},
+         closure, OverTime::last, "below 0.02 from 3.5 km of extension on"},
         {coupling::water_load_name, "N/m", "water's weight on the base",
          "vertical force of the water's pressure, excess pressure too, on the base beyond that at "
          "the start, downward. Where the base bends"},
