@@ -286,7 +286,8 @@ const Effect& effect() {
         .add_events = add_events,
         .load_bending_base = load_bending_base,
         .explain = explain,
-        .absence = {"pressure and buoyancy of pore water on the discs", "@@"},
+        .absence = {"pressure and buoyancy of pore water on the discs",
+                    "docs/explain/pore-fluid.md#on-a-base-that-bends"},
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();
