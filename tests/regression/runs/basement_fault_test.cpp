@@ -93,8 +93,6 @@ TEST_F(BasementFault, BlocksCarryWhatRestsOnThemAndNoDiscFallsThrough) {
         EXPECT_NEAR(state.clock.extension.m, 60.0, 0.5);
         const double down = sense == "normal" ? 1.0 : -1.0, angle = dip * pi / 180.0;
         const Point left = moved_beside_wall(state, false), right = moved_beside_wall(state, true);
-        std::printf("%s %g: left %.2f %.2f right %.2f %.2f, overlap %.4f\n", sense.c_str(), dip,
-                    left.x, left.y, right.x, right.y, deepest(scene, state));
         // Discs on the base slip past it by some metres of 60.
         EXPECT_NEAR(left.x, 0.0, 4.0);
         EXPECT_NEAR(left.y, 0.0, 4.0);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace listric::effects::base_motion::trishear_test {
 namespace {
@@ -38,10 +37,6 @@ TEST(Trishear, RecoversWhatAFoldWasMadeWith) {
                     const Trishear made{angle * degree, propagation};
                     const auto found = fit_trishear(fold(made, fault, 10.0), fault);
                     ASSERT_TRUE(found);
-                    std::printf("slip %g dip %g: angle %g %.1f, P/S %g %.2f, misfit "
-                                "%.1f\n",
-                                slip, dip, angle, found->apical_angle / degree, propagation,
-                                found->propagation, found->misfit);
                     // Tops that are 10 m rough (7.1 m root mean square), of a throw of 420 to 560
                     // m; found: within 0.8 degrees and 0.1.
                     EXPECT_NEAR(found->apical_angle / degree, angle, 1.5);

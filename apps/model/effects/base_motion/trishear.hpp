@@ -36,8 +36,8 @@ struct TrishearFit : Trishear {
 };
 
 /// Angle and propagation by which trishear of a known fault and slip comes closest to tops
-/// (Levenberg-Marquardt from several starts). Were the tip's first place free, too, rough tops
-/// would trade it for propagation. None of fewer points than 8.
+/// (Levenberg-Marquardt from several starts). The tip begins at the base of the cover, which is
+/// whole. None of fewer points than 8.
 std::optional<TrishearFit> fit_trishear(std::span<const MarkerTop> tops, const SlippedFault& fault);
 
 /// Tops of the rock at a fifth to four fifths of its thickness: discs that began within half a mean
