@@ -186,6 +186,15 @@ private:
     double face_; ///< m: arcs are followed to millimetres
 };
 
+std::string explain(const Scene& scene, EffectList) {
+    if (const auto fault = basement_fault(scene))
+        return fmt::format("the basement fault slips by {:.3g} m per metre of the run's way\n",
+                           std::abs(fault->slip));
+    return fmt::format("the {} moves as prescribed, at up to {:.2g} of the speed of extension\n",
+                       scene.detachment ? "detachment" : "base",
+                       dem::greatest_base_speed(*scene.find<P>(), make_calendar(scene)));
+}
+
 } // namespace
 
 Works works() { return {}; }
@@ -256,17 +265,7 @@ const Effect& effect() {
                 return nullptr;
             return std::make_unique<BaseMotionDriver>(scene, parts);
         },
-        .explain =
-            [](const Scene& scene, EffectList) {
-                if (const auto fault = basement_fault(scene))
-                    return fmt::format("the basement fault slips by {:.3g} m per metre of the "
-                                       "run's way\n",
-                                       std::abs(fault->slip));
-                return fmt::format(
-                    "the {} moves as prescribed, at up to {:.2g} of the speed of extension\n",
-                    scene.detachment ? "detachment" : "base",
-                    dem::greatest_base_speed(*scene.find<P>(), make_calendar(scene)));
-            },
+        .explain = explain,
         .measures = measures_of_fault(),
     };
     return effect;

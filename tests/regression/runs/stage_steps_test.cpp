@@ -82,7 +82,7 @@ TEST_F(Steps, AreOneRunHoweverTheyAreCut) {
 
 TEST_F(Steps, StrataComeOnceAStepAndKnowTheirAge) {
     const std::string sinks = "sedimentation.target=[{time_a=0.0, points=[[0.0, 0.0]]}, "
-                              "{time_a=30e6, points=[[0.0, 120.0]]}]";
+                              "{time_a=30e6, points=[[0.0, 0.0], [500.0, 120.0]]}]";
     const Scene scene = load(text("[[stage]]\ndistance_m = 20.0\n[[stage]]\npause_a = 30e6\n"
                                   "step_a = 10e6\nsettle_m = 100.0\n"),
                              {sinks, "sedimentation.interval_a=1000.0"});

@@ -60,14 +60,17 @@ protected:
         return deepest;
     }
 
-    /// Mean displacement of the discs on the base that began within 500 m of a wall, left or right:
-    /// higher up the cover fails as a wedge.
-    static Point moved_beside_wall(const State& state, bool right) {
+    static constexpr double left_of_fault = 250.0, right_of_fault = 3000.0; ///< m
+
+    /// Mean displacement of the discs on the base that began within 250 m of a place, left or right
+    /// of the fault. Beside the wall that leaves it the cover fails as a wedge.
+    static Point moved(const State& state, bool right) {
         const ConstDiscColumns d = disc_columns(state);
+        const double place = right ? right_of_fault : left_of_fault;
         Point sum;
         double count = 0.0;
         for (std::size_t i = 0; i < d.x.size(); ++i)
-            if (d.start_y[i] < -850.0 && (right ? d.start_x[i] > 3500.0 : d.start_x[i] < 500.0)) {
+            if (d.start_y[i] < -850.0 && std::abs(d.start_x[i] - place) < 250.0) {
                 sum = {sum.x + d.x[i] - d.start_x[i], sum.y + d.y[i] - d.start_y[i]};
                 count += 1.0;
             }
@@ -92,7 +95,7 @@ TEST_F(BasementFault, BlocksCarryWhatRestsOnThemAndNoDiscFallsThrough) {
         EXPECT_EQ(summary["finished"], true);
         EXPECT_NEAR(state.clock.extension.m, 60.0, 0.5);
         const double down = sense == "normal" ? 1.0 : -1.0, angle = dip * pi / 180.0;
-        const Point left = moved_beside_wall(state, false), right = moved_beside_wall(state, true);
+        const Point left = moved(state, false), right = moved(state, true);
         // Discs on the base slip past it by some metres of 60.
         EXPECT_NEAR(left.x, 0.0, 4.0);
         EXPECT_NEAR(left.y, 0.0, 4.0);
@@ -133,8 +136,8 @@ TEST_F(BasementFault, BesideAStretchingBaseIsAPartOfTheWallsWay) {
     EXPECT_NEAR(line[1].end.y, -1000.0 - 60.0 * std::sqrt(0.75), 1e-9);
     run(scene, "stretched");
     const State state = last_state("stretched");
-    EXPECT_NEAR(moved_beside_wall(state, false).x, 70.0 * 250.0 / 4000.0, 4.0);
-    EXPECT_NEAR(moved_beside_wall(state, true).x, 100.0 - 70.0 * 250.0 / 4000.0, 4.0);
+    EXPECT_NEAR(moved(state, false).x, 70.0 * left_of_fault / 4000.0, 4.0);
+    EXPECT_NEAR(moved(state, true).x, 30.0 + 70.0 * right_of_fault / 4000.0, 4.0);
     EXPECT_LT(deepest(scene, state), 0.02);
 }
 
@@ -144,7 +147,7 @@ TEST_F(BasementFault, StagesLetItSlipBack) {
     run(scene, "back");
     const State state = last_state("back");
     EXPECT_NEAR(state.clock.extension.m, 0.0, 0.5);
-    EXPECT_NEAR(moved_beside_wall(state, true).y, 0.0, 4.0);
+    EXPECT_NEAR(moved(state, true).y, 0.0, 4.0);
     EXPECT_LT(deepest(scene, state), 0.02);
 }
 
