@@ -2,6 +2,7 @@
 
 #include "apps/scene/base_words.hpp"
 #include "apps/scene/parameters/effect.hpp"
+#include "apps/scene/parameters/flat_base.hpp"
 #include "apps/scene/toml/differences.hpp"
 #include "apps/scene/toml/file_names.hpp"
 #include "apps/scene/toml/toml.hpp"
@@ -159,8 +160,8 @@ std::string rock_line(const Scene& scene, const std::optional<RockOrigins>& orig
     if (scene.detachment)
         parts.push_back(fmt::format("detachment: {}, friction {:g}",
                                     base_name(scene.detachment->base), scene.detachment->friction));
-    else
-        parts.push_back(fmt::format("base friction {:g}", base_friction(scene)));
+    else if (const auto base = flat_base(scene))
+        parts.push_back(fmt::format("base friction {:g}", base->friction));
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 

@@ -86,7 +86,7 @@ TEST_F(MaterialFileTest, ShippedMaterials) {
     EXPECT_THAT(materials.names(),
                 ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w", "mat18-w-calibrated",
                             "mat18-w-frictional", "mica", "mud", "salt", "sand", "sandbox-sand",
-                            "sediment", "shale", "silt"));
+                            "sandbox-sand-36", "sediment", "shale", "silt"));
     for (const std::string& name : materials.names()) {
         const RockMaterial rock = load_material(name);
         EXPECT_EQ(rock.name, name);
@@ -181,7 +181,7 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
 TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
     const std::string shipped = "(materials: mat18-b, mat18-b-calibrated, mat18-w, "
                                 "mat18-w-calibrated, mat18-w-frictional, mica, mud, salt, "
-                                "sand, sandbox-sand, sediment, shale, silt)";
+                                "sand, sandbox-sand, sandbox-sand-36, sediment, shale, silt)";
     const auto missing = [&](const std::string& name) {
         return error_of([&] { load_material(name); });
     };
@@ -199,7 +199,7 @@ TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
               "scene.toml:5: materials.basment: unknown key, did you mean basement?");
     EXPECT_EQ(scene_error(scene_text + "[material]\nbasement = 'mat18-b'\n"),
               "scene.toml:5: material.basement: unknown key, allowed: normal_stiffness_pa, "
-              "shear_stiffness_pa, friction");
+              "shear_stiffness_pa, friction, rolling_friction");
     EXPECT_EQ(scene_error(scene_text + "[materials]\nbasement = 3\n"),
               "scene.toml:5: materials.basement: wrong type (integer 3), allowed: string");
     setenv("LISTRIC_MATERIALS", "/nowhere", 1);

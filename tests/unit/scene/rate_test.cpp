@@ -132,6 +132,7 @@ TEST_F(RateFiles, ATemplateShowsTheValuesOfTheScenesRate) {
 /// Parameters in years or per second that mean time or a rate at any speed of the wall.
 const std::set<std::string> means_time{
     "stage.pause_a",                     // a span that the scene is about
+    "stage.step_a",                      // and a part of it
     "fault_weakening.heal_after_a",      // off; one who states it means years
     "fault_weakening.strain_rate_per_s", // off; the paper's other definition of a fault
 };
