@@ -126,7 +126,7 @@ TEST_F(BasementFault, EndsInTheSameBitsAfterAResumeAndWithTwoThreads) {
 
 TEST_F(BasementFault, BesideAStretchingBaseIsAPartOfTheWallsWay) {
     const Scene scene = load(box + sand + fault("normal", "60.0") + "[stretching]\n",
-                             {"extension.distance_m=100.0"});
+                             {"extension.distance_m=100.0", "extension.speed_m_per_s=0.25"});
     const RigidBase base = make_rigid_base(scene);
     EXPECT_DOUBLE_EQ(wall_way(base, 100.0), 100.0);
     const Chain line = base_line(base, 100.0); // 70 m of stretch: 35 of them left of the fault
