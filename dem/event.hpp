@@ -95,7 +95,7 @@ enum class Stage {
 class Event {
 public:
     Event(std::string name, Schedule schedule, Stage stage = Stage::adjust)
-        : name_(std::move(name)), schedule_(schedule), stage_(stage) {}
+        : name_(std::move(name)), schedule_(std::move(schedule)), stage_(stage) {}
     virtual ~Event() = default;
 
     const std::string& name() const { return name_; }
@@ -130,7 +130,7 @@ private:
 class Observer : public Event {
 public:
     Observer(std::string name, Schedule schedule, Stage stage = Stage::sample)
-        : Event(std::move(name), schedule, stage) {}
+        : Event(std::move(name), std::move(schedule), stage) {}
 
     /// Whether it can begin to look in the middle of a run.
     virtual bool begins_any_time() const { return false; }

@@ -42,12 +42,13 @@ struct GroundMotion {
 GroundMotion ground_motion(const State& state, std::span<const double> from_x,
                            std::span<const double> from_y) {
     const ConstDiscColumns d = disc_columns(state);
-    const auto [low, high] = std::ranges::minmax(d.x);
+    const auto ends = std::ranges::minmax(d.x);
+    const double low = ends.min;
     GroundMotion ground{low, 2.0 * state.mean_radius, {}, {}, {}};
     const auto column = [&](std::size_t i) {
         return static_cast<std::size_t>((d.x[i] - low) / ground.width);
     };
-    const auto columns = static_cast<std::size_t>((high - low) / ground.width) + 1;
+    const auto columns = static_cast<std::size_t>((ends.max - low) / ground.width) + 1;
     std::vector<double> top(columns, -std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] == 0)
