@@ -99,8 +99,9 @@ TEST_F(BasementFault, BlocksCarryWhatRestsOnThemAndNoDiscFallsThrough) {
         // Rock goes with its block; at 1 m/s sand is left behind sideways.
         EXPECT_NEAR(left.x, 0.0, 4.0);
         EXPECT_NEAR(left.y, 0.0, 4.0);
-        if (rock != sand)
+        if (rock != sand) {
             EXPECT_NEAR(right.x, down * 60.0 * std::cos(angle), 1.0);
+        }
         EXPECT_NEAR(right.y, -down * 60.0 * std::sin(angle), 4.0);
         // Contacts under a kilometre of rock overlap by up to 0.005 of a radius.
         EXPECT_LT(deepest(scene, state), 0.02);
