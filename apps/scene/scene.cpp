@@ -130,8 +130,10 @@ RigidBase make_rigid_base(const Scene& scene) {
 }
 
 double base_friction(const Scene& scene) {
-    if (!scene.detachment)
-        return flat_base(scene)->friction;
+    if (!scene.detachment) {
+        const auto base = flat_base(scene);
+        return base ? base->friction : 0.0;
+    }
     const Stages* stages = scene.find<Stages>();
     return (stages ? stages->back().detachment_friction : std::nullopt)
         .value_or(scene.detachment->friction);
