@@ -217,9 +217,8 @@ const Effect& effect() {
                  "Moves the detachment sideways under the discs."},
                 {"fault_x_m", at<&P::fault_x>, "m", between(-1e7, 1e7), "",
                  "place where a fault of the basement, which dips to the right, meets the base of "
-                 "the "
-                 "cover; without [detachment]. The block on its right slips, and takes the right "
-                 "wall along",
+                 "the cover; without [detachment]. The block on its right slips, and takes the "
+                 "right wall along",
                  "Moves the fault along the section; leave it several thicknesses from walls."},
                 {"fault_dip_deg", at<&P::fault_dip>, "deg", between(5, 90), "",
                  "dip of that fault; 90: a step",

@@ -65,8 +65,7 @@ std::vector<Parameter> parameters() {
         {"level_m", at<&P::level>, "m", ranges::height, "",
          "height of the water above the original surface; default: the level that the basin is "
          "filled to, 0 where that is a line. Given, or beside a base that bends, ground above it "
-         "is "
-         "dry",
+         "is dry",
          "Lowering it dries the ground above it, which then weighs in full."},
         {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
          "water at rest: buoyancy of sediment and rock, and nothing else",

@@ -181,18 +181,16 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          "the mud's own volume over that of the cells of its discs", remembered<Sums::fill>},
         {fluid_closure, "1", "missing pressure on the base",
          "rest that forces of excess pressure on sediment, rock and base lack to a sum of zero, "
-         "over "
-         "the "
-         "pressure times length on rock and base, which are given it. Where the base bends",
+         "over the pressure times length on rock and base, which are given it. Where the base "
+         "bends",
          closure, OverTime::last, "below 0.02 from 3.5 km of extension on"},
         {coupling::water_load_name, "N/m", "water's weight on the base",
          "vertical force of the water's pressure, excess pressure too, on the base beyond that at "
          "the start, downward. Where the base bends"},
         {coupling::water_force_error_name, "1", "error of the vertical forces of weights and water",
          "load that the base bears, by the discs' weights less lift and by the water's pressure, "
-         "less "
-         "the "
-         "weight of all that is above it, over that weight. Round-off. Where the base bends",
+         "less the weight of all that is above it, over that weight. Round-off. Where the base "
+         "bends",
          nullptr, largest, "below 1e-9"},
         {"newton_worst", "1", "most iterations of the pressure in a step",
          "greatest number of Newton's steps of a solution so far", remembered<Sums::newton>},

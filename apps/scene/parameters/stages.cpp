@@ -111,8 +111,7 @@ const std::vector<Parameter>& stage_parameters() {
         {"pause_a", at<&P::pause>, "a", ranges::duration, "",
          "time in which base and wall rest, in place of distance_m",
          "Lets sediment fill, compact and heal while nothing moves. Without step_a it takes as "
-         "much "
-         "travel as extension in that time."},
+         "much travel as extension in that time."},
         {"step_a", at<&P::step>, "a", ranges::duration, "",
          "greatest step of a pause: strata, loads and all that goes by years then do so by equal "
          "steps, settle_m of travel each; default: none, time goes by travel",
