@@ -6,6 +6,7 @@
 #include "apps/commands/signals.hpp"
 #include "apps/commands/start_ranks.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/run/batch.hpp"
 #include "apps/run/forecast/oversize.hpp"
 #include "apps/run/ranks/join_ranks.hpp"
 #include "apps/run/ranks/rank_reports.hpp"
@@ -45,6 +46,7 @@ struct RunCall {
     std::string ranks; ///< --ranks; empty: not given
     bool force_size = false;
     bool no_report = false, no_figures = false;
+    std::string lean; ///< --lean: "last" or "all" snapshots; empty: not given
 };
 
 /// A number of processes; none for "all", as many as were started together, and where there is
@@ -97,6 +99,10 @@ RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
     options.output = output_of(call, scene.name);
     options.report = !call.no_report;
     options.figures = !call.no_figures;
+    if (!call.lean.empty()) {
+        options.lean = call.lean == "all" ? Lean::all : Lean::last;
+        options.report = options.figures = false;
+    }
     return options;
 }
 
@@ -166,7 +172,9 @@ ExitCode run_alone(const RunCall& call) {
     const RunOptions options = options_of(call, scene, false);
     const fs::path summary = options.output / "summary.json";
     const std::string before = read_text_if_there(summary);
-    const ExitCode code = exit_code_of(run_scene(scene, options));
+    const ExitCode code =
+        exit_code_of(options.lean == Lean::no ? run_scene(scene, options)
+                                              : make_run({scene.name, scene, options}));
     if (!before.empty() && before == read_text_if_there(summary)) // nothing was left to do
         archive::warn_of(options.output, archive::reservations(options.output));
     return code;
@@ -190,6 +198,13 @@ void choose_accuracy(RunCall& call) {
 ExitCode run(RunCall& call) {
     if (call.asked.is_asked())
         choose_accuracy(call);
+    if (!call.lean.empty()) {
+        if (call.lean != "last" && call.lean != "all")
+            throw UsageError(fmt::format("--lean={}: last or all", call.lean));
+        if (call.options.force || call.options.live || !call.ranks.empty())
+            throw UsageError("--lean is for one of many runs, which goes on with what is there: "
+                             "leave out --force, --live and --ranks");
+    }
     if (call.until)
         call.options.until = parse_length("--until", *call.until);
     call.options.stop = stop_on_signals();
@@ -249,6 +264,12 @@ Command add_run(CLI::App& program) {
                       "write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "write no report.html");
     command->add_flag("--no-figures", call->no_figures, "draw no figures");
+    command
+        ->add_flag("--lean{last}", call->lean,
+                   "one of many runs: go on with what is in its folder, and leave there scene, "
+                   "history, log, summary and the last snapshot alone; all: all snapshots")
+        ->type_name("SNAPSHOTS")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_asked_accuracy(*command, call->asked);
     add_quiet(*command, call->options.quiet);
     return {command, [call] { return run(*call); }};

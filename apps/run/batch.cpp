@@ -4,9 +4,13 @@
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/archive/folder/provenance.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/run/forecast/prediction.hpp"
+#include "apps/run/progress_line.hpp"
 #include "apps/run/run.hpp"
+#include "apps/scene/parameters/stage.hpp"
 #include "apps/support/files/file.hpp"
 #include "apps/support/machine/cores.hpp"
+#include "apps/support/stopwatch.hpp"
 #include "apps/support/version.hpp"
 #include "apps/support/words/text.hpp"
 #include "dem/cycle/cycle.hpp"
@@ -19,8 +23,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
@@ -71,50 +78,32 @@ bool is_of(const Failure& failure, const Scene& scene) {
     return failure.scene_hash == hash_of(scene) && failure.version == version;
 }
 
-/// How a run ended before, if there is no use in making it again.
-std::optional<BatchEnding> known_ending(const BatchRun& run) {
-    const auto failure = read_failure(run);
-    if (failure && is_final(*failure) && is_of(*failure, run.scene))
-        return failure->ending;
-    return std::nullopt;
-}
-
 /// Exit code of a process whose run is being made by another call: its folder is that call's.
 constexpr int in_use = 75; // EX_TEMPFAIL of sysexits.h
 
-/// Makes a run; leaves what went wrong in its folder. Returns the process' exit code.
-int make(const BatchRun& run) {
-    Ending ending{ExitCode::done, ""};
+/// Leaves in a run's folder why it has failed.
+void record_failure(const BatchRun& run, const Ending& ending) {
+    const std::string reason = ending.message.substr(0, ending.message.find('\n'));
     try {
-        make_folder(run.options.output);
-        RunOptions options = run.options;
-        // A failure with other parameters or in another version is of no use to these; a finished
-        // run with others is somebody's, and refused.
-        const auto failure = read_failure(run);
-        options.force = failure && is_final(*failure) && !is_of(*failure, run.scene);
-        options.resume = !options.force;
-        std::error_code ignored;
-        fs::remove(failure_of(run), ignored);
-        if (run_scene(run.scene, options) == RunOutcome::interrupted)
-            ending.code = ExitCode::interrupted;
+        write_object(failure_of(run), {{"exit_code", static_cast<int>(ending.code)},
+                                       {"reason", reason},
+                                       {"scene_hash", hash_of(run.scene)},
+                                       {"version", version}});
+    } catch (const StorageError&) {
+        // the exit code says it
+    }
+}
+
+/// Makes a run. Returns its process' exit code.
+int exit_code_of(const BatchRun& run) {
+    try {
+        return static_cast<int>(make_run(run) == RunOutcome::interrupted ? ExitCode::interrupted
+                                                                         : ExitCode::done);
     } catch (const archive::FolderInUse&) {
         return in_use;
     } catch (...) {
-        ending = ending_of(std::current_exception());
+        return static_cast<int>(ending_of(std::current_exception()).code);
     }
-    const int code = static_cast<int>(ending.code);
-    if (!ending.message.empty()) {
-        const std::string reason = ending.message.substr(0, ending.message.find('\n'));
-        try {
-            write_object(failure_of(run), {{"exit_code", code},
-                                           {"reason", reason},
-                                           {"scene_hash", hash_of(run.scene)},
-                                           {"version", version}});
-        } catch (const StorageError&) {
-            // the exit code says it
-        }
-    }
-    return code;
 }
 
 /// Processes of runs. What is still under way when it ends is stopped and waited for.
@@ -144,7 +133,7 @@ public:
 #if defined __linux__
         prctl(PR_SET_PDEATHSIG, request_to_stop);
 #endif
-        _exit(getppid() == parent ? make(run) : static_cast<int>(ExitCode::interrupted));
+        _exit(getppid() == parent ? exit_code_of(run) : static_cast<int>(ExitCode::interrupted));
     }
 
     void stop() const {
@@ -202,7 +191,108 @@ void tell_of_versions(std::span<const BatchRun> runs, std::span<const BatchEndin
                             version, shown_start(names, 400)));
 }
 
+/// Says what scenes warn of, each warning with the first run that has it.
+void warn_of_scenes(std::span<const BatchRun> runs, Log& log) {
+    std::set<std::string> told;
+    for (const BatchRun& run : runs)
+        for (const std::string& warning : run.scene.warnings)
+            if (told.insert(warning).second)
+                log.say(fmt::format("warning: {}: {}", run.name, warning));
+}
+
+/// How far many runs are, by their predicted work.
+class Tally {
+public:
+    explicit Tally(std::span<const BatchRun> runs) : runs_(runs) {
+        for (const BatchRun& run : runs)
+            work_.push_back(predict(run.scene).work);
+    }
+
+    std::size_t ended() const { return ended_; }
+
+    void begin(std::size_t k) {
+        found_ += work_[k] * share_of(k); // an earlier call has made that
+        under_way_.insert(k);
+    }
+
+    void end(std::size_t k, bool failed) {
+        under_way_.erase(k);
+        done_ += work_[k];
+        ++ended_;
+        failed_ += failed ? 1 : 0;
+    }
+
+    Progress progress() const {
+        double done = done_;
+        for (const std::size_t k : under_way_)
+            done += work_[k] * share_of(k);
+        const double all = std::accumulate(work_.begin(), work_.end(), 0.0);
+        const double made = done - found_; // by this call
+        Progress progress{.share = done / all,
+                          .what = fmt::format("{} of {} runs{}", ended_, runs_.size(),
+                                              failed_ ? fmt::format(", {} failed", failed_) : ""),
+                          .now = std::time(nullptr)};
+        if (made > 0.005 * all)
+            progress.left = seconds_since(start_) * (all - done) / made;
+        return progress;
+    }
+
+private:
+    /// What a run has made of its way, as its folder tells.
+    double share_of(std::size_t k) const {
+        const fs::path& folder = runs_[k].options.output;
+        if (fs::exists(folder / "summary.json"))
+            return 1.0;
+        const JsonObject status = object_in(folder / "status.json");
+        const auto come = number_at(status, travel_column), of = number_at(status, "of_m");
+        const auto extension = number_at(status, "extension_m");
+        return of && *of > 0.0 && (come || extension)
+                   ? std::clamp((come ? *come : *extension) / *of, 0.0, 1.0)
+                   : 0.0;
+    }
+
+    std::span<const BatchRun> runs_;
+    std::vector<double> work_;
+    std::set<std::size_t> under_way_;
+    double done_ = 0.0, found_ = 0.0; ///< of work
+    std::size_t ended_ = 0, failed_ = 0;
+    SteadyClock::time_point start_ = SteadyClock::now();
+};
+
 } // namespace
+
+std::optional<BatchEnding> known_ending(const BatchRun& run) {
+    const auto failure = read_failure(run);
+    if (failure && is_final(*failure) && is_of(*failure, run.scene))
+        return failure->ending;
+    return std::nullopt;
+}
+
+RunOutcome make_run(const BatchRun& run) {
+    if (const auto known = known_ending(run))
+        throw dem::NumericalFailure(fmt::format("{}\nso it ended before; without {} it is made "
+                                                "again",
+                                                known->reason, failure_of(run).string()));
+    try {
+        make_folder(run.options.output);
+        RunOptions options = run.options;
+        // A failure with other parameters or in another version is of no use to these; a finished
+        // run with others is somebody's, and refused.
+        const auto failure = read_failure(run);
+        options.force = failure && is_final(*failure) && !is_of(*failure, run.scene);
+        options.resume = !options.force;
+        std::error_code ignored;
+        fs::remove(failure_of(run), ignored);
+        return run_scene(run.scene, options);
+    } catch (const archive::FolderInUse&) {
+        throw;
+    } catch (...) {
+        const Ending ending = ending_of(std::current_exception());
+        if (!ending.message.empty())
+            record_failure(run, ending);
+        throw;
+    }
+}
 
 int ManyRuns::at_a_time() const { return jobs > 0 ? jobs : std::max(1, usable_cores() / threads); }
 
@@ -210,7 +300,8 @@ RunOptions ManyRuns::options_of_run(fs::path folder, bool figures) const {
     RunOptions options;
     options.output = std::move(folder);
     options.threads = threads;
-    options.quiet = quiet || at_a_time() > 1;
+    options.quiet = true; // the call tells of it
+    options.warned = true;
     options.figures = figures;
     options.report = false;
     options.stop = stop;
@@ -220,12 +311,15 @@ RunOptions ManyRuns::options_of_run(fs::path folder, bool figures) const {
 std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, const ManyRuns& call, Log& log) {
     const auto jobs = static_cast<std::size_t>(call.at_a_time());
     std::vector<BatchEnding> endings(runs.size());
-    std::size_t next = 0, ended = 0;
+    std::size_t next = 0;
+    Tally tally(runs);
     const auto end = [&](std::size_t k, BatchEnding ending) {
         endings[k] = std::move(ending);
-        log.say(fmt::format("{} of {}: {}: {}", ++ended, runs.size(), runs[k].name,
+        tally.end(k, !endings[k].reason.empty());
+        log.say(fmt::format("{} of {}: {}: {}", tally.ended(), runs.size(), runs[k].name,
                             endings[k].reason.empty() ? "finished" : endings[k].reason));
     };
+    warn_of_scenes(runs, log);
     Processes processes;
     bool stopping = false;
     while (next < runs.size() || processes.count() > 0) {
@@ -235,6 +329,7 @@ std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, const ManyRun
             processes.stop();
         }
         while (next < runs.size() && processes.count() < jobs) {
+            tally.begin(next);
             if (const auto known = known_ending(runs[next]))
                 end(next, *known);
             else
@@ -244,6 +339,7 @@ std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, const ManyRun
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         processes.reap(
             [&](std::size_t k, int exit_code) { end(k, ending_of_process(runs[k], exit_code)); });
+        log.progress([&](std::size_t columns) { return progress_line(tally.progress(), columns); });
     }
     call.stop.check();
     tell_of_versions(runs, endings, log);

@@ -37,6 +37,15 @@ struct BatchEnding {
     std::string reason = {}; ///< first line of its error; empty if it is finished
 };
 
+/// Makes one of many runs in this process. Where numerics fail it leaves failure.json, and while
+/// that is there of the same scene and program it throws this failure again at once. Throws what
+/// run_scene() throws.
+RunOutcome make_run(const BatchRun& run);
+
+/// How numerics have ended a run before, if there is no use in making it again; none: it may be
+/// made, or is finished.
+std::optional<BatchEnding> known_ending(const BatchRun& run);
+
 /// Makes runs, each in a process of its own, so many at a time, so that what ends one does not end
 /// the others. What is finished is not made again; nor is what numerics have failed in, which
 /// failure.json in its folder says of the same scene: without that file, or of another scene, it

@@ -14,6 +14,13 @@ class RankedCycles;
 
 namespace listric {
 
+/// What a run keeps that is one of many.
+enum class Lean {
+    no,   ///< all that it writes
+    last, ///< scene, history, log, summary and the last snapshot
+    all   ///< the same with all snapshots
+};
+
 /// How a scene is run.
 struct RunOptions {
     std::filesystem::path output;
@@ -27,7 +34,9 @@ struct RunOptions {
     bool figures = true; ///< drawn at the scene's extensions and at the end
     bool report = true;  ///< report.html is written at the end
     bool live = false;   ///< and after every window
-    StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
+    Lean lean = Lean::no;
+    bool warned = false; ///< the caller has told what the scene warns of
+    StopToken stop; ///< where it is requested, the run saves and stops as soon as it can
 
     archive::ExistingRun existing() const {
         using enum archive::ExistingRun;

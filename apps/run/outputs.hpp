@@ -14,7 +14,8 @@
 // - The dilation of rock is measured once, at the end, against the first snapshot.
 // - The summary holds what outputs before it have added; the report shows the summary.
 // - The results are for people, who are told once all is there.
-// - The status comes last: it says that all the others are there.
+// - The status says that all the others are there.
+// - What a lean run need not keep goes last.
 // clang-format off
 #define LISTRIC_OUTPUTS(OUTPUT) \
     OUTPUT(scene_copy) \
@@ -29,7 +30,8 @@
     OUTPUT(summary) \
     OUTPUT(report) \
     OUTPUT(results) \
-    OUTPUT(status)
+    OUTPUT(status) \
+    OUTPUT(thinning)
 // clang-format on
 
 namespace listric {

@@ -31,12 +31,13 @@ std::string clock_text(std::time_t then, std::time_t now) {
 
 std::string progress_line(const Progress& progress, std::size_t columns) {
     const double share = std::clamp(progress.share, 0.0, 1.0);
-    const std::string line = fmt::format("{:.0f} %  {}  {} left", std::floor(100.0 * share),
-                                         progress.what, rough_duration(progress.left));
-    const std::string end =
-        fmt::format(" (ends {})",
-                    clock_text(progress.now + static_cast<std::time_t>(std::llround(progress.left)),
-                               progress.now));
+    std::string line = fmt::format("{:.0f} %  {}", std::floor(100.0 * share), progress.what);
+    std::string end;
+    if (progress.left) {
+        line += fmt::format("  {} left", rough_duration(*progress.left));
+        const auto left = static_cast<std::time_t>(std::llround(*progress.left));
+        end = fmt::format(" (ends {})", clock_text(progress.now + left, progress.now));
+    }
     const std::string tries[] = {bar(share, 10) + line + end, bar(share, 10) + line,
                                  bar(share, 5) + line};
     const auto fits = std::ranges::find_if(

@@ -2,15 +2,16 @@
 
 #include <cstddef>
 #include <ctime>
+#include <optional>
 #include <string>
 
 namespace listric {
 
-/// How far a run is, for people.
+/// How far a run is, or many are, for people.
 struct Progress {
-    double share = 0.0;    ///< of its work, from 0 to 1
-    std::string what = {}; ///< "4.7 of 10 km"
-    double left = 0.0;     ///< s
+    double share = 0.0;              ///< of its work, from 0 to 1
+    std::string what = {};           ///< "4.7 of 10 km"
+    std::optional<double> left = {}; ///< s; none: not known yet
     std::time_t now = 0;
 };
 

@@ -91,6 +91,10 @@ class Launcher(unittest.TestCase):
         self.assertEqual(done.returncode, code, said)
         return done.stdout, said
 
+    def forget(self):
+        """The launcher looks for all again."""
+        (self.root / "build/native/built").unlink(missing_ok=True)
+
     def note(self, name, *lines):
         (self.notes / name).write_text("".join(f"{line}\n" for line in lines))
 
@@ -148,10 +152,12 @@ class Launcher(unittest.TestCase):
             self.note("missing", *missing)
             self.note("stderr")
             self.note("calls")
+            self.forget()
             found, said = self.answered(answer, "run", "rigid")
             self.assertEqual((found, len(self.installs())), (code, installs), said)
             self.assertIn(f"1 packages missing: {missing[0]}", said)
         self.note("missing", "g++")
+        self.forget()
         self.assertIn("no terminal to ask at", self.call("scenes")[1])
 
     def test_a_build_of_others_is_named_and_not_waited_for_for_ever(self):
@@ -160,6 +166,12 @@ class Launcher(unittest.TestCase):
         self.assertRegex(lock.read_text(), r"^process \d+ of \S+, since 20")
         with open(lock, "a") as held:
             fcntl.flock(held, fcntl.LOCK_EX)
+            # What is built waits for nobody and looks for nothing; what it was made of has changed below.
+            self.note("missing", "g++")
+            self.assertEqual(self.call("scenes", LISTRIC_WAIT="1"), ("program: <scenes>", ""))
+            self.assertEqual(self.installs(), [])
+            self.note("missing")
+            (self.root / "cmake/new.cmake").touch()
             _, said = self.call("scenes", code=2, LISTRIC_WAIT="1")
             self.assertRegex(said, "waiting for another build in .*: process ")
             self.assertRegex(said, "after 1 s: process .*LISTRIC_WAIT=7200.*LISTRIC_BUILD")
@@ -174,7 +186,7 @@ class Launcher(unittest.TestCase):
         without_tools = {"PATH": str(self.tools_but("cmake", "ninja", "c++"))}
         for words in ("run", "--help"), ("help",), ("--version",), ():
             self.assertEqual(self.call(*words, **without_tools)[0], f"program: <{'><'.join(words)}>")
-        os.utime(calls)
+        (calls / "new.cpp").touch()
         self.call("help", code=2, **without_tools) # builds, since its calls may have changed
 
     def test_numbers_of_the_environment_are_no_commands(self):
@@ -401,6 +413,7 @@ class Launcher(unittest.TestCase):
         _, said = self.call("run", "elastic", code=2, user=user)
         self.assertRegex(said, "as root: .*apt-get install --no-install-recommends g[+][+] libdeal.ii-dev\n")
         # What only figures or this call want ends no call of a program that is built.
+        self.forget()
         self.note("missing", "python3-matplotlib", "libjs-dygraphs")
         out, said = self.call("scenes", user=user)
         self.assertEqual(out, "program: <scenes>")

@@ -23,6 +23,7 @@
 #include <map>
 #include <string>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -30,21 +31,39 @@ namespace listric::archive {
 
 namespace fs = std::filesystem;
 
-FolderLock::FolderLock(const fs::path& output)
-    : file_(open((output / ".lock").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
-    if (file_ < 0 && (errno == EISDIR || errno == ELOOP))
-        throw UsageError((output / ".lock").string() +
-                         ": is a folder or a link, but keeps other runs out as a file; remove it");
-    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(file_);
-        throw FolderInUse(output.string() +
-                          ": another run is writing there; --output writes elsewhere");
-    }
+namespace {
+
+/// Whether an open file is still the one of that name.
+bool is_at(const fs::path& path, int file) {
+    struct stat there {
+    }, here{};
+    return stat(path.c_str(), &there) == 0 && fstat(file, &here) == 0 &&
+           there.st_dev == here.st_dev && there.st_ino == here.st_ino;
+}
+
+} // namespace
+
+FolderLock::FolderLock(const fs::path& output) : path_(output / ".lock") {
+    do {
+        if (file_ >= 0)
+            close(file_);
+        file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file_ < 0 && (errno == EISDIR || errno == ELOOP))
+            throw UsageError(path_.string() + ": is a folder or a link, but keeps other runs out "
+                                              "as a file; remove it");
+        if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(file_);
+            throw FolderInUse(output.string() +
+                              ": another run is writing there; --output writes elsewhere");
+        }
+    } while (file_ >= 0 && !is_at(path_, file_)); // its holder has removed it meanwhile
 }
 
 FolderLock::~FolderLock() {
-    if (file_ >= 0)
-        close(file_);
+    if (file_ < 0)
+        return;
+    unlink(path_.c_str());
+    close(file_);
 }
 
 namespace {
@@ -132,6 +151,19 @@ bool was_killed_at_the_end(const fs::path& output) {
     return !phase.empty() && phase != "finished";
 }
 
+/// Whether the run there, of the scene that its folder has, has come to its end.
+bool has_ended(const FolderUse& use, const fs::path& output) {
+    const fs::path summary = output / "summary.json";
+    std::error_code error;
+    const auto reached = summary_travel(summary);
+    return reached &&
+           dem::has_come_to(dem::Travel(*reached), dem::Travel(use.end),
+                            dem::Travel(cycle_of(object_in(summary)))) &&
+           is_of_scene(object_in(summary), read_text_if_there(output / "scene.toml")) &&
+           (!use.with_report || fs::exists(output / "report.html", error)) &&
+           !was_killed_at_the_end(output);
+}
+
 /// Refuses a folder that holds something else than what is asked for, or what would be lost there,
 /// before any work is done. True: the run to resume has reached its end.
 bool check_output(const FolderUse& use, const fs::path& output, ExistingRun existing) {
@@ -146,14 +178,7 @@ bool check_output(const FolderUse& use, const fs::path& output, ExistingRun exis
         keep_what_is_there(use, output);
         return false;
     }
-    const auto reached = summary_travel(summary);
-    const bool finished =
-        reached &&
-        dem::has_come_to(dem::Travel(*reached), dem::Travel(use.end),
-                         dem::Travel(cycle_of(object_in(summary)))) &&
-        is_of_scene(object_in(summary), read_text_if_there(output / "scene.toml")) &&
-        (!use.with_report || fs::exists(output / "report.html", error)) &&
-        !was_killed_at_the_end(output);
+    const bool finished = has_ended(use, output);
     require_own_run(use, output, finished);
     return finished;
 }
@@ -187,6 +212,13 @@ FolderUse folder_use(const Scene& scene, double target) {
         std::clamp(1e-3 * scene.hanging_wall.mean_radius, 0.005 * interval, 0.5 * interval);
     return {to_toml(scene), scene.files, target - near, make_parts(scene).base_moves,
             scene.output.series == SeriesFormat::paraview};
+}
+
+bool is_finished(const Scene& scene, const fs::path& output) {
+    const FolderUse use = folder_use(scene, scene.extension.distance);
+    return has_ended(use, output) &&
+           !scene_difference(scene_values(use.parameters),
+                             scene_values(read_text_if_there(output / "scene.toml")));
 }
 
 std::unique_ptr<FolderLock> take_output(const FolderUse& use, const fs::path& output,

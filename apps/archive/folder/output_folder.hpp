@@ -16,8 +16,8 @@ struct FolderInUse : UsageError {
     using UsageError::UsageError;
 };
 
-/// Keeps other calls out of an output folder while it lives. Where files cannot be locked it keeps
-/// nobody out.
+/// Keeps other calls out of an output folder while it lives, by a file that it removes. Where files
+/// cannot be locked it keeps nobody out.
 class FolderLock {
 public:
     /// The folder must exist. Throws FolderInUse, and UsageError where there is no place for it.
@@ -27,7 +27,8 @@ public:
     FolderLock& operator=(const FolderLock&) = delete;
 
 private:
-    int file_;
+    std::filesystem::path path_;
+    int file_ = -1;
 };
 
 /// Treatment of a run that is in the output folder already.
@@ -53,6 +54,9 @@ FolderUse folder_use(const Scene& scene, double target);
 /// written there.
 std::unique_ptr<FolderLock> take_output(const FolderUse& use, const std::filesystem::path& output,
                                         ExistingRun existing);
+
+/// Whether a folder holds the scene's finished run.
+bool is_finished(const Scene& scene, const std::filesystem::path& output);
 
 /// A file that a call writes, and a text near its beginning that only the program's own have.
 struct OwnFile {

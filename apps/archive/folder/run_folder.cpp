@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace listric::archive {
@@ -47,6 +48,20 @@ std::vector<fs::path> list_snapshots(const fs::path& output) {
         return std::pair(snapshot_extension(path), path.native().size());
     });
     return snapshots;
+}
+
+void thin_out(const fs::path& output, bool all_snapshots) {
+    std::set<fs::path> kept;
+    for (const char* name : {"scene.toml", "summary.json", "history.csv", "log.txt"})
+        kept.insert(output / name);
+    std::vector<fs::path> snapshots = list_snapshots(output);
+    if (!all_snapshots && snapshots.size() > 1)
+        snapshots.erase(snapshots.begin(), snapshots.end() - 1);
+    kept.insert(snapshots.begin(), snapshots.end());
+    std::error_code error;
+    for (const fs::path& file : run_files(output))
+        if (!kept.contains(file))
+            fs::remove(file, error);
 }
 
 double snapshot_extension(const fs::path& path) {

@@ -18,6 +18,10 @@ namespace listric::archive {
 /// All snapshots in a run's folder, oldest first.
 std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& output);
 
+/// Removes what a run has left there but its scene, summary, history, log and last snapshot, or all
+/// snapshots.
+void thin_out(const std::filesystem::path& output, bool all_snapshots);
+
 /// Extension in a snapshot's name, m.
 double snapshot_extension(const std::filesystem::path& snapshot);
 

@@ -5,6 +5,7 @@
 #include "apps/support/error.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace listric {
 
@@ -20,19 +21,35 @@ SweepTask parse_task(const std::string& text) {
     return task;
 }
 
+/// Refuses options that belong to another use of the call.
+/// @param list  whether --list and --json are given
+void require_one_of(const SweepRequest& request, std::pair<bool, bool> list) {
+    const bool merges = !request.merge.empty();
+    if (request.task && merges)
+        throw UsageError("--task makes runs, --merge reads those of all tasks: one or the other");
+    if (list.first && (request.task || merges))
+        throw UsageError("--list prints all runs of the plan: leave out --task and --merge");
+    if (list.second && !list.first)
+        throw UsageError("--json is for --list");
+    if (request.so_far && !merges)
+        throw UsageError("--so-far is for --merge");
+}
+
 } // namespace
 
 Command add_sweep(CLI::App& program) {
     const auto request = std::make_shared<SweepRequest>();
     const auto task = std::make_shared<std::string>();
-    CLI::App* command = add_call(
-        program, {"Many runs",
-                  "sweep",
-                  "make the runs of a plan and compare them",
-                  "docs/guides/sweeps.md",
-                  {{{"sweep plan.toml --jobs 2", "two runs at a time"},
-                    {"sweep plan.toml --task 1/4", "the first of four parts, on a cluster"},
-                    {"sweep plan.toml --merge a b c d", "the tables of the four parts"}}}});
+    const auto list = std::make_shared<std::pair<bool, bool>>(false, false); // asked for, as JSON
+    CLI::App* command =
+        add_call(program, {"Many runs",
+                           "sweep",
+                           "make the runs of a plan and compare them",
+                           "docs/guides/sweeps.md",
+                           {{{"sweep plan.toml --jobs 2", "two runs at a time"},
+                             {"sweep plan.toml --list", "a call for each run, for other engines"},
+                             {"sweep plan.toml --merge out/sweep-plan --so-far",
+                              "a table of the runs that are there"}}}});
     command->add_option("PLAN", request->plan, "plan of the sweep, a TOML file")
         ->type_name("FILE")
         ->required();
@@ -40,19 +57,30 @@ Command add_sweep(CLI::App& program) {
     command->add_option("--task", *task, "part i/n of the runs, for job arrays")
         ->type_name("PART")
         ->default_str("all runs");
-    command->add_option("--merge", request->merge, "read the folders of all tasks; make no run")
+    command->add_flag("--lean", request->is_lean, "keep of a run what --lean of run keeps");
+    command->add_flag("--list", list->first,
+                      "print a call for each run, with its time, memory and disk; make no run");
+    command->add_flag("--json", list->second, "list as JSON");
+    command
+        ->add_option("--merge", request->merge,
+                     "read the folders of all tasks, or of runs that other engines have made; "
+                     "make no run")
         ->type_name("DIR")
         ->default_str("none")
         ->expected(1, 100'000);
+    command->add_flag("--so-far", request->so_far,
+                      "merge though runs are missing: their outcome is \"not yet\"");
     add_quiet(*command, request->quiet);
     return {command,
-            [request, task] {
+            [request, task, list] {
                 if (!task->empty())
                     request->task = parse_task(*task);
-                if (request->task && !request->merge.empty())
-                    throw UsageError("--task makes runs, --merge reads those of all tasks: one or "
-                                     "the other");
+                require_one_of(*request, *list);
                 request->stop = stop_on_signals();
+                if (list->first) {
+                    list_sweep(*request, list->second);
+                    return ExitCode::done;
+                }
                 return run_sweep(*request) ? ExitCode::done : ExitCode::numerics_failed;
             },
             "the same call goes on from here"};

@@ -26,7 +26,7 @@ void save_window(const RunView& run) {
 } // namespace
 
 std::optional<Output> outputs::paraview(const RunView& run) {
-    if (run.scene.output.series != SeriesFormat::paraview)
+    if (run.scene.output.series != SeriesFormat::paraview || run.options.lean != Lean::no)
         return std::nullopt;
     return Output{
         .begin = save_step, .resume = save_window, .window = save_window, .save = save_step};

@@ -69,7 +69,7 @@ class Sweep {
 public:
     explicit Sweep(const SweepRequest& request)
         : request_(request), plan_(load_sweep_plan(request.plan)), points_(sweep_points(plan_)),
-          output_(output_of(request, plan_)), log_(request.quiet) {
+          output_(sweep_folder(request, plan_)), log_(request.quiet) {
         std::vector<OwnFile> written{{output_ / "sweep.csv", "run,seed,"},
                                      {output_ / "effects.csv", "measure,term,effect"},
                                      {output_ / "effects.png", "Listric"}};
@@ -85,10 +85,12 @@ public:
         write_text(output_ / "sweep.csv", to_csv(plan_, points_, rows));
         if (!request_.merge.empty())
             warn_of_versions(rows);
+        const auto awaited = std::ranges::count(rows, not_yet, &SweepRow::outcome);
         const auto failed =
-            std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); });
-        log_.say(fmt::format("{}: {} runs{}", (output_ / "sweep.csv").string(), rows.size(),
-                             failed ? fmt::format(", {} of them failed", failed) : ""));
+            std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); }) - awaited;
+        log_.say(fmt::format("{}: {} runs{}{}", (output_ / "sweep.csv").string(), rows.size(),
+                             failed ? fmt::format(", {} of them failed", failed) : "",
+                             awaited ? fmt::format(", {} not finished yet", awaited) : ""));
         if (!request_.task) {
             warn_of_empty_columns(rows);
             write_effects(rows);
@@ -98,25 +100,10 @@ public:
     }
 
 private:
-    static fs::path output_of(const SweepRequest& request, const SweepPlan& plan) {
-        if (!request.output.empty())
-            return request.output;
-        const std::string task =
-            request.task ? fmt::format("-{}-of-{}", request.task->number, request.task->of) : "";
-        return fmt::format("out/sweep-{}{}", plan.name, task);
-    }
-
-    std::string name_of(const SweepRow& row) const {
-        return name_of_point(plan_, row.run - 1, points_[row.run - 1],
-                             fmt::format(", seed {}", row.seed));
-    }
+    std::string name_of(const SweepRow& row) const { return name_of_row(plan_, points_, row); }
 
     Scene scene_of(const SweepRow& row) const {
-        try {
-            return scene_at(plan_, points_[row.run - 1], row.seed);
-        } catch (const SceneError& error) {
-            fail(fmt::format("{}: {}: {}", request_.plan.string(), name_of(row), error.what()));
-        }
+        return scene_of_row(plan_, request_.plan, points_, row);
     }
 
     /// Refuses a run that was made by another plan.
@@ -153,57 +140,90 @@ private:
                                  version, fmt::join(makers, "; ")));
     }
 
-    /// The rows that are asked for, seeds of a point together: their packings differ, so that runs
-    /// side by side seldom wait for the same.
+    /// The rows that are asked for.
     std::vector<SweepRow> asked() const {
-        std::vector<SweepRow> rows;
         const SweepTask task = request_.task.value_or(SweepTask{});
+        std::vector<SweepRow> rows = sweep_rows(plan_, points_, output_);
         int number = 0;
-        for (std::size_t run = 1; run <= points_.size(); ++run)
-            for (int k = 0; k < plan_.seeds; ++k)
-                if (number++ % task.of == task.number - 1)
-                    rows.push_back({run, plan_.first_seed + k});
+        std::erase_if(rows, [&](const SweepRow&) { return number++ % task.of != task.number - 1; });
         return rows;
+    }
+
+    /// Takes what a finished run has left.
+    void read_finished(SweepRow& row) const {
+        const JsonObject summary = read_object(row.folder / "summary.json");
+        row.outcome = "finished";
+        row.state_hash = text_at(summary, "state_hash");
+        row.made_by = archive::makers_of(row.folder);
+        row.measures = measures_of(plan_, row.folder, summary);
+    }
+
+    void read_ending(SweepRow& row, const BatchEnding& ending) const {
+        row.exit_code = ending.exit_code;
+        row.outcome = ending.reason;
+        row.measures.resize(plan_.measures.size());
     }
 
     std::vector<SweepRow> make() {
         std::vector<SweepRow> rows = asked();
         std::vector<BatchRun> runs;
-        for (SweepRow& row : rows) {
+        for (const SweepRow& row : rows) {
             request_.stop.check();
             log_.progress(
                 fmt::format("reading the scene of run {} of {}", runs.size() + 1, rows.size()));
-            row.folder = output_ / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
             runs.push_back({name_of(row), scene_of(row), request_.options_of_run(row.folder)});
+            if (request_.is_lean)
+                runs.back().options.lean = plan_.needs_moments() ? Lean::all : Lean::last;
         }
         const std::vector<BatchEnding> endings = make_runs(runs, request_, log_);
         for (std::size_t k = 0; k < rows.size(); ++k) {
             request_.stop.check();
             log_.progress(fmt::format("measuring run {} of {}", k + 1, rows.size()));
-            rows[k].exit_code = endings[k].exit_code;
-            rows[k].outcome = endings[k].reason.empty() ? "finished" : endings[k].reason;
-            if (rows[k].failed()) {
-                rows[k].measures.resize(plan_.measures.size());
-                continue;
-            }
-            const JsonObject summary = read_object(rows[k].folder / "summary.json");
-            rows[k].state_hash = text_at(summary, "state_hash");
-            rows[k].made_by = archive::makers_of(rows[k].folder);
-            rows[k].measures = measures_of(plan_, rows[k].folder, summary);
+            if (endings[k].reason.empty())
+                read_finished(rows[k]);
+            else
+                read_ending(rows[k], endings[k]);
         }
         return rows;
     }
 
+    /// Reads a run that a call of its own has made in one of the folders. False: it is in none of
+    /// them, or not finished.
+    bool read_run(SweepRow& row) const {
+        for (const fs::path& folder : request_.merge) {
+            row.folder = folder / "runs" / row.folder.filename();
+            if (!fs::exists(row.folder / "scene.toml"))
+                continue;
+            BatchRun run{"", scene_of(row), {}};
+            run.options.output = row.folder;
+            if (is_finished(run.scene, row.folder)) {
+                read_finished(row);
+                return true;
+            }
+            check_run(row); // another plan's would never finish
+            if (const auto ending = known_ending(run)) {
+                read_ending(row, *ending);
+                return true;
+            }
+        }
+        return false;
+    }
+
     /// The rows that tasks have left.
-    std::vector<SweepRow> merge() const {
+    std::vector<SweepRow> rows_of_tasks() const {
         std::vector<SweepRow> rows;
-        for (const fs::path& folder : request_.merge)
+        for (const fs::path& folder : request_.merge) {
+            if (!fs::exists(folder / "sweep.csv") && fs::is_directory(folder / "runs"))
+                continue;
             for (SweepRow& row : read_sweep(plan_, points_, folder / "sweep.csv")) {
+                if (row.outcome == not_yet)
+                    continue;
                 row.folder = folder / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
                 if (!row.failed())
                     check_run(row);
                 rows.push_back(std::move(row));
             }
+        }
         const auto place = [](const SweepRow& row) { return std::pair(row.run, row.seed); };
         std::ranges::sort(rows, {}, place);
         const auto twice = std::ranges::adjacent_find(rows, {}, place);
@@ -211,11 +231,31 @@ private:
             throw UsageError(fmt::format("--merge: run {}, seed {} is in {} and in {}", twice->run,
                                          twice->seed, twice->folder.parent_path().string(),
                                          std::next(twice)->folder.parent_path().string()));
-        for (const SweepRow& row : asked())
-            if (!std::ranges::binary_search(rows, place(row), {}, place))
-                throw UsageError(fmt::format("--merge: run {}, seed {} is in none of the folders; "
-                                             "name those of all tasks",
-                                             row.run, row.seed));
+        return rows;
+    }
+
+    /// All rows, from the tables of tasks or from the runs themselves.
+    std::vector<SweepRow> merge() {
+        const auto place = [](const SweepRow& row) { return std::pair(row.run, row.seed); };
+        const std::vector<SweepRow> tables = rows_of_tasks();
+        std::vector<SweepRow> rows = asked();
+        std::size_t missing = 0;
+        for (SweepRow& row : rows) {
+            request_.stop.check();
+            log_.progress(fmt::format("reading run {} of {}", &row - rows.data() + 1, rows.size()));
+            const auto known = std::ranges::lower_bound(tables, place(row), {}, place);
+            if (known != tables.end() && place(*known) == place(row))
+                row = *known;
+            else if (!read_run(row))
+                ++missing, read_ending(row, {static_cast<int>(ExitCode::interrupted), not_yet});
+        }
+        const auto first = std::ranges::find(rows, not_yet, &SweepRow::outcome);
+        if (missing > 0 && !request_.so_far)
+            throw UsageError(
+                fmt::format("--merge: run {}, seed {}{} in none of the folders is "
+                            "finished; name all folders, or take --so-far",
+                            first->run, first->seed,
+                            missing > 1 ? fmt::format(" and {} others", missing - 1) : ""));
         return rows;
     }
 
@@ -284,6 +324,14 @@ private:
 };
 
 } // namespace
+
+fs::path sweep_folder(const SweepRequest& request, const SweepPlan& plan) {
+    if (!request.output.empty())
+        return request.output;
+    const std::string task =
+        request.task ? fmt::format("-{}-of-{}", request.task->number, request.task->of) : "";
+    return fmt::format("out/sweep-{}{}", plan.name, task);
+}
 
 bool run_sweep(const SweepRequest& request) { return Sweep(request).carry_out(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/run/batch.hpp"
+#include "apps/studies/sweep/sweep_plan.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,9 @@ struct SweepTask {
 
 /// A call of `listric sweep`.
 struct SweepRequest : ManyRuns {
+    bool is_lean = false; ///< runs keep what they must
+    bool so_far = false;  ///< a merged table may lack runs
+
     std::filesystem::path plan;
     std::optional<SweepTask> task;            ///< none: all runs
     std::vector<std::filesystem::path> merge; ///< folders of tasks, to be read instead of run
@@ -25,5 +29,12 @@ struct SweepRequest : ManyRuns {
 /// already are not made again. Returns false where all runs have failed. Throws UsageError,
 /// SceneError, StorageError, Interrupted: the same call goes on from there.
 bool run_sweep(const SweepRequest& request);
+
+/// The folder of a call's results, its own if it names none.
+std::filesystem::path sweep_folder(const SweepRequest& request, const SweepPlan& plan);
+
+/// Prints a call of the program for each run, with its own folder, for engines that make them; as
+/// text with its price behind #, or as JSON. Throws UsageError, SceneError.
+void list_sweep(const SweepRequest& request, bool as_json);
 
 } // namespace listric

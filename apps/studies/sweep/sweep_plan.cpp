@@ -304,6 +304,10 @@ std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
 
 } // namespace
 
+bool SweepPlan::needs_moments() const {
+    return std::ranges::any_of(measures, [](const SweepMeasure& m) { return m.at.has_value(); });
+}
+
 SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     const toml::table document = read_document(shelf, file);
     const Entry top{document, ""};

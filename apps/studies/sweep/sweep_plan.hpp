@@ -50,6 +50,9 @@ struct SweepPlan {
     int samples = 0; ///< of a Latin hypercube
     std::vector<SweepParameter> parameters;
     std::vector<SweepMeasure> measures;
+
+    /// Whether a measure is of a moment before the end, for which all snapshots are read.
+    bool needs_moments() const;
 };
 
 /// Reads a plan and tries every value in the scene, of a list every point. Throws SceneError.

@@ -54,6 +54,34 @@ bool go_by_factors(std::span<const double> numbers) {
 
 } // namespace
 
+std::vector<SweepRow> sweep_rows(const SweepPlan& plan, std::span<const SweepPoint> points,
+                                 const std::filesystem::path& folder) {
+    std::vector<SweepRow> rows;
+    for (std::size_t run = 1; run <= points.size(); ++run)
+        for (int k = 0; k < plan.seeds; ++k) {
+            rows.push_back({run, plan.first_seed + k});
+            rows.back().folder =
+                folder / "runs" / fmt::format("{:04}-seed={}", run, rows.back().seed);
+        }
+    return rows;
+}
+
+std::string name_of_row(const SweepPlan& plan, std::span<const SweepPoint> points,
+                        const SweepRow& row) {
+    return name_of_point(plan, row.run - 1, points[row.run - 1],
+                         fmt::format(", seed {}", row.seed));
+}
+
+Scene scene_of_row(const SweepPlan& plan, const std::filesystem::path& file,
+                   std::span<const SweepPoint> points, const SweepRow& row) {
+    try {
+        return scene_at(plan, points[row.run - 1], row.seed);
+    } catch (const SceneError& error) {
+        fail(
+            fmt::format("{}: {}: {}", file.string(), name_of_row(plan, points, row), error.what()));
+    }
+}
+
 std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
                    std::span<const SweepRow> rows) {
     std::string text = header(plan) + "\n";
