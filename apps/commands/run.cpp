@@ -269,6 +269,7 @@ Command add_run(CLI::App& program) {
                    "one of many runs: go on with what is in its folder, and leave there scene, "
                    "history, log, summary and the last snapshot alone; all: all snapshots")
         ->type_name("SNAPSHOTS")
+        ->default_str("all files stay")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_asked_accuracy(*command, call->asked);
     add_quiet(*command, call->options.quiet);

@@ -252,10 +252,10 @@ private:
         const auto first = std::ranges::find(rows, not_yet, &SweepRow::outcome);
         if (missing > 0 && !request_.so_far)
             throw UsageError(
-                fmt::format("--merge: run {}, seed {}{} in none of the folders is "
-                            "finished; name all folders, or take --so-far",
+                fmt::format("--merge: run {}, seed {} is in none of the folders, or not "
+                            "finished{}; name all folders, or take --so-far",
                             first->run, first->seed,
-                            missing > 1 ? fmt::format(" and {} others", missing - 1) : ""));
+                            missing > 1 ? fmt::format(", like {} more", missing - 1) : ""));
         return rows;
     }
 

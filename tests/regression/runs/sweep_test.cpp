@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 namespace listric::sweep_test {
@@ -75,6 +77,20 @@ protected:
     Ended sweep(const std::string& output, const std::vector<std::string>& more = {}) const {
         return Program(folder, words(output, more)).wait();
     }
+    /// Calls that --list prints.
+    std::vector<std::string> listed(const std::string& output) const {
+        std::vector<std::string> calls;
+        std::istringstream lines(sweep(output, {"--list"}).out);
+        for (std::string line; std::getline(lines, line);)
+            calls.push_back(program_path + line.substr(std::string("listric").size()));
+        return calls;
+    }
+    std::ptrdiff_t files(const std::string& run) const {
+        std::ptrdiff_t number = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(folder / run))
+            number += entry.is_regular_file() ? 1 : 0;
+        return number;
+    }
     std::string table(const std::string& output) const {
         return contents(folder / output / "sweep.csv");
     }
@@ -123,6 +139,55 @@ TEST_F(SweepTest, KilledInTheMiddleItGoesOnToTheSameTable) {
     EXPECT_EQ(resumed.code, 0) << resumed.err;
     EXPECT_EQ(table("killed"), rows);
     EXPECT_EQ(contents(folder / "killed/effects.csv"), contents(folder / "whole/effects.csv"));
+}
+
+TEST_F(SweepTest, RunsThatAnEngineMakesAreTheSweeps) {
+    ASSERT_EQ(sweep("whole").code, 0);
+    const std::vector<std::string> calls = listed("listed");
+    ASSERT_EQ(calls.size(), 8u);
+    EXPECT_THAT(calls.back(), HasSubstr("--set bonds.tensile_strength_pa=1e+08"));
+    EXPECT_THAT(calls.back(), testing::ContainsRegex("# [0-9]+ s, [0-9]+ MiB, [0-9]+ MB of disk"));
+    for (std::size_t k = 0; k + 1 < calls.size(); ++k)
+        ASSERT_EQ(std::system(calls[k].c_str()), 0) << calls[k];
+    const std::vector<std::string> merge{"--merge", path("listed")};
+    const Ended strict = sweep("listed", merge);
+    EXPECT_EQ(strict.code, 2);
+    EXPECT_THAT(strict.err, HasSubstr("run 4, seed 2 is in none of the folders, or not finished"));
+    const Ended so_far = sweep("listed", {"--merge", path("listed"), "--so-far"});
+    EXPECT_EQ(so_far.code, 0) << so_far.err;
+    EXPECT_THAT(table("listed"), HasSubstr("\n4,2,100000000,0.6,not yet,130,,,,,\n"));
+    for (const char* call : {"makes it", "leaves it alone"})
+        ASSERT_EQ(std::system(calls.back().c_str()), 0) << call;
+    ASSERT_EQ(sweep("listed", merge).code, 0);
+    EXPECT_EQ(table("listed"), table("whole"));
+    EXPECT_EQ(files("listed/runs/0001-seed=1"), 4 + 5); // a measure of a moment reads all
+}
+
+TEST_F(SweepTest, LeanRunsKeepFiveFiles) {
+    std::ofstream(folder / "plan.toml")
+        << plan.substr(0, plan.find(", \"basement")) + "]\n" + plan.substr(plan.find("[[vary"));
+    const Ended lean = sweep("lean", {"--lean"});
+    ASSERT_EQ(lean.code, 0) << lean.err;
+    EXPECT_EQ(files("lean/runs/0001-seed=1"), 5);
+    EXPECT_TRUE(fs::exists(folder / "lean/sheet.png")) << lean.err;
+    const auto json = nlohmann::json::parse(sweep("lean", {"--list", "--json"}).out);
+    EXPECT_EQ(json.size(), 8u);
+    EXPECT_EQ(json.at(3).at("folder"), path("lean/runs/0002-seed=2"));
+    EXPECT_EQ(json.at(3).at("call").at(0), "listric");
+}
+
+TEST_F(SweepTest, FailedRunsOfAnEngineSayWhy) {
+    std::ofstream(folder / "plan.toml")
+        << "scene = \"small.toml\"\nmeasures = [\"inertial_number\"]\n[[vary]]\nparameter = "
+           "\"cycle.time_step_safety\"\nvalues = [0.8, 8.0]\n";
+    ASSERT_EQ(sweep("whole").code, 0);
+    const std::vector<std::string> calls = listed("listed");
+    EXPECT_EQ(std::system(calls[0].c_str()), 0);
+    for (const char* reason : {"numerics", "failure.json"})
+        EXPECT_NE(std::system((calls[1].substr(0, calls[1].find('#')) + " 2>/dev/null").c_str()), 0)
+            << reason;
+    EXPECT_EQ(sweep("listed", {"--merge", path("listed")}).code, 0);
+    EXPECT_EQ(table("listed"), table("whole"));
 }
 
 TEST_F(SweepTest, TasksMergedAreOneTask) {
