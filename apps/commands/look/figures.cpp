@@ -2,6 +2,7 @@
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/picture_order.hpp"
+#include "apps/studies/ensemble/ensemble.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/words/number.hpp"
 #include "apps/support/words/spelling.hpp"
@@ -84,7 +85,11 @@ Command add_figures(CLI::App& program) {
                            {{{"figures out/lis1 --format pdf,svg", "figures for print"},
                              {"figures out/lis1 --width 85mm --at 5km", "one for a column"},
                              {"figures out/lis1 --animation", "a film of all snapshots"}}}});
-    command->add_option("DIR", request.output, "folder of a run")->type_name("DIR")->required();
+    command
+        ->add_option("DIR", request.output,
+                     "folder of a run, or of many: then of all seeds on one section")
+        ->type_name("DIR")
+        ->required();
     add_output(*command, request.pictures, "DIR/figures", "folder of the pictures");
     command->add_flag("--animation", call->animation,
                       "make a film of all snapshots instead of the figures");
@@ -123,6 +128,11 @@ Command add_figures(CLI::App& program) {
     return {command, [call] {
                 FiguresRequest wanted = call->request;
                 require_sense(*call);
+                if (holds_runs(wanted.output)) {
+                    for (const auto& file : draw_ensembles(wanted.output, false))
+                        std::cout << file.string() << '\n';
+                    return ExitCode::done;
+                }
                 wanted.underlay = underlay_of(call->underlay, {wanted.output});
                 if (!call->animation)
                     require_formats(call->formats, picture_formats);

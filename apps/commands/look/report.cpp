@@ -1,6 +1,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/report_run.hpp"
+#include "apps/studies/ensemble/ensemble.hpp"
 #include "apps/support/words/log.hpp"
 
 #include <iostream>
@@ -22,7 +23,9 @@ Command add_report(CLI::App& program) {
                            {{{"report out/lis1", "write out/lis1/report.html"},
                              {"report out/lis1 out/lis2", "two runs on one page"},
                              {"report out/lis1 --most-mb 5", "a smaller file, to send"}}}});
-    command->add_option("DIR", call->request.outputs, "folders of one or two runs")
+    command
+        ->add_option("DIR", call->request.outputs,
+                     "folders of one or two runs, or one of many: of all its seeds")
         ->type_name("DIR")
         ->required()
         ->expected(1, 2);
@@ -36,6 +39,11 @@ Command add_report(CLI::App& program) {
                       "compute horizons and the past of faults at all moments; takes longer");
     add_underlay(*command, call->underlay);
     return {command, [call] {
+                if (const auto& folder = call->request.outputs.front();
+                    call->request.outputs.size() == 1 && holds_runs(folder)) {
+                    std::cout << draw_ensembles(folder, true).back().string() << '\n';
+                    return ExitCode::done;
+                }
                 call->request.underlay = underlay_of(
                     call->underlay, {call->request.outputs.begin(), call->request.outputs.end()});
                 const WrittenReport report = report_run(call->request);

@@ -145,7 +145,7 @@ TEST_F(SweepTest, RunsThatAnEngineMakesAreTheSweeps) {
     ASSERT_EQ(sweep("whole").code, 0);
     const std::vector<std::string> calls = listed("listed");
     ASSERT_EQ(calls.size(), 8u);
-    EXPECT_THAT(calls.back(), HasSubstr("--set bonds.tensile_strength_pa=1e+08"));
+    EXPECT_THAT(calls.back(), HasSubstr("--set bonds.tensile_strength_pa=100000000"));
     EXPECT_THAT(calls.back(), testing::ContainsRegex("# [0-9]+ s, [0-9]+ MiB, [0-9]+ MB of disk"));
     for (std::size_t k = 0; k + 1 < calls.size(); ++k)
         ASSERT_EQ(std::system(calls[k].c_str()), 0) << calls[k];
@@ -170,6 +170,14 @@ TEST_F(SweepTest, LeanRunsKeepFiveFiles) {
     ASSERT_EQ(lean.code, 0) << lean.err;
     EXPECT_EQ(files("lean/runs/0001-seed=1"), 5);
     EXPECT_TRUE(fs::exists(folder / "lean/sheet.png")) << lean.err;
+    // All seeds on one section, and a page that opens the runs.
+    const Ended drawn = Program(folder, {"report", path("lean")}).wait();
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_THAT(contents(folder / "lean/report.html"), HasSubstr("href=\"runs/0001-seed%3D2/\""));
+    EXPECT_THAT(contents(folder / "lean/seeds.csv"),
+                HasSubstr("\n\"bonds.tensile_strength_pa = 1e7, material.friction = 0.3\","));
+    EXPECT_TRUE(fs::exists(folder / "lean/seeds.png"));
+    EXPECT_EQ(Program(folder, {"figures", path("lean")}).wait().code, 0) << "again";
     const auto json = nlohmann::json::parse(sweep("lean", {"--list", "--json"}).out);
     EXPECT_EQ(json.size(), 8u);
     EXPECT_EQ(json.at(3).at("folder"), path("lean/runs/0002-seed=2"));
