@@ -166,6 +166,29 @@ class Exports(unittest.TestCase):
                     np.testing.assert_array_equal(points, np.column_stack([rows.x_m, -rows.depth_m]))
                     self.assertEqual(feature.GetField("depth_reference"), LEVEL)
 
+    def test_gdal_reads_what_it_has_written(self):
+        for kind, words in (("horizons", ("--at", "2km")), ("faults", ("--at", "2km")), ("displacement", ("--at", "1km,2km"))):
+            *_, file = self.export(kind, *words, "--format", "gpkg,dxf,csv")
+            table = pandas.read_csv(file)
+            package = ogr.Open(str(file.with_suffix(".gpkg"))).GetLayer(0)
+            lines = [(line.GetField("name"), line.GetGeometryRef().GetPoint(0)) for line in package]
+            first = table.groupby("line").first()
+            self.assertEqual([name for name, _ in lines], list(first.name))
+            for (_, (x, y, _)), (_, row) in zip(lines, first.iterrows()):
+                self.assertAlmostEqual(x, row.x_m)
+                self.assertAlmostEqual(y, -row.depth_m)
+            self.assertIn("ENGCRS", package.GetSpatialRef().ExportToWkt(["FORMAT=WKT2_2019"]))
+            drawing = ogr.Open(str(file.with_suffix(".dxf"))).GetLayer(0)
+            self.assertEqual({line.GetField("Layer") for line in drawing}, set(first.name))
+
+    def test_the_ground_moves_as_its_discs_do(self):
+        moved = pandas.read_csv(self.export("displacement", "--at", "1km,2km")[0])
+        self.assertGreater(len(moved), 20)
+        self.assertLess(moved.w_m.min(), -300.0)                     # beside the breakaway
+        right = moved[moved.x_m > moved.x_m.max() - 2000.0]
+        self.assertAlmostEqual(right.u_m.mean(), 1000.0, delta=30.0) # goes with the wall
+        self.assertAlmostEqual(right.w_m.mean(), 0.0, delta=30.0)
+
     def test_h5py_and_gsd_have_the_discs_where_pandas_does(self):
         discs = self.table("discs").sort_values("id")
         self.assertLess(discs.depth_m.min(), -500.0)

@@ -7,6 +7,7 @@
 #include "apps/archive/folder/setting.hpp"
 #include "apps/archive/reservations.hpp"
 #include "apps/archive/tables/burial_history.hpp"
+#include "apps/archive/tables/displacement_table.hpp"
 #include "apps/archive/tables/exports.hpp"
 #include "apps/figures/sections/export_seismic.hpp"
 #include "apps/measures/strata/rock.hpp"
@@ -27,6 +28,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 namespace listric {
 
@@ -45,12 +47,13 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-    static const std::vector<std::string_view> of_lines{"csv", "geojson", "gmt"};
+    static const std::vector<std::string_view> of_lines{"csv", "geojson", "gmt", "gpkg", "dxf"};
     static const std::vector<Kind> all{
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
         {"discs", discs_table, false, {"csv", "gsd"}}, {"well", wells_table, false, of_lines},
         {"layers", layers_table, false, of_lines},     {"seismic", nullptr, true, {"segy", "npy"}},
+        {"displacement", nullptr, false, of_lines},
     };
     return all;
 }
@@ -148,6 +151,15 @@ std::string written(const LineTable& table, const std::string& format) {
                                  : to_gmt(table);
 }
 
+/// Writes lines in a format that GDAL knows, by what a reader of GeoJSON gets.
+void write_by_gdal(const LineTable& table, const fs::path& file) {
+    const TemporaryFolder place(file.parent_path());
+    const fs::path lines = place.path / "lines.geojson";
+    write_text(lines, to_geojson(table));
+    run_script_with("osgeo", "python3-gdal", "gis.py",
+                    {fs::absolute(lines).string(), fs::absolute(file).string()});
+}
+
 /// Writes KIND-SNAPSHOT.FORMAT in every format of lines, with the places of wells that were asked
 /// for behind the snapshot, and adds the files to those there are.
 void write_lines(LineTable table, std::string_view kind, const fs::path& snapshot,
@@ -155,11 +167,15 @@ void write_lines(LineTable table, std::string_view kind, const fs::path& snapsho
     table.name = fmt::format("{}-{}", kind, snapshot.stem().string());
     if (!request.wells.empty())
         table.name += fmt::format("-x-{}m", listed(request.wells));
-    for (const std::string& format : request.formats)
-        if (format != "gsd") {
-            files.push_back(request.folder / (table.name + "." + format));
+    for (const std::string& format : request.formats) {
+        if (format == "gsd")
+            continue;
+        files.push_back(request.folder / (table.name + "." + format));
+        if (format == "gpkg" || format == "dxf")
+            write_by_gdal(table, files.back());
+        else
             write_text(files.back(), written(table, format));
-        }
+    }
 }
 
 } // namespace
@@ -196,6 +212,7 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
     std::unique_ptr<Trajectory> trajectory;
     if (std::ranges::find(request.formats, "gsd") != request.formats.end())
         trajectory = std::make_unique<Trajectory>(folder);
+    std::optional<measures::DiscPlaces> before; // of the snapshot before
     for (const fs::path& path : moments) {
         const Moment moment = run.read(path);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
@@ -205,6 +222,15 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
                                                     run.parts.base, moment.state, history)
                                     : measures::FaultReport(),
                                 request.wells};
+        if (kind.name == "displacement") {
+            LineTable table;
+            if (before)
+                table = displacement_table(at, *before);
+            before.emplace(moment.state);
+            if (!table.lines.empty())
+                write_lines(std::move(table), kind.name, path, request, files);
+            continue;
+        }
         if (!kind.table) {
             const auto more =
                 export_seismic(at, path.stem().string(), folder, request.formats, request.seismic);
@@ -234,6 +260,9 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (!table.lines.empty() || kind.name != "well") // at the start there is no sediment
             write_lines(std::move(table), kind.name, path, request, files);
     }
+    if (kind.name == "displacement" && files.empty())
+        throw UsageError(request.output.string() + ": displacement is from one snapshot to the "
+                                                   "next: name two moments or more with --at");
     if (trajectory) {
         files.push_back(folder / trajectory_name(request, moments));
         trajectory->write(files.back());
