@@ -170,7 +170,8 @@ class Exports(unittest.TestCase):
         for kind, words in (("horizons", ("--at", "2km")), ("faults", ("--at", "2km")), ("displacement", ("--at", "1km,2km"))):
             *_, file = self.export(kind, *words, "--format", "gpkg,dxf,csv")
             table = pandas.read_csv(file)
-            package = ogr.Open(str(file.with_suffix(".gpkg"))).GetLayer(0)
+            data, drawing = (ogr.Open(str(file.with_suffix(ending))) for ending in (".gpkg", ".dxf"))
+            package = data.GetLayer(0)
             lines = [(line.GetField("name"), line.GetGeometryRef().GetPoint(0)) for line in package]
             first = table.groupby("line").first()
             self.assertEqual([name for name, _ in lines], list(first.name))
@@ -178,8 +179,7 @@ class Exports(unittest.TestCase):
                 self.assertAlmostEqual(x, row.x_m)
                 self.assertAlmostEqual(y, -row.depth_m)
             self.assertIn("ENGCRS", package.GetSpatialRef().ExportToWkt(["FORMAT=WKT2_2019"]))
-            drawing = ogr.Open(str(file.with_suffix(".dxf"))).GetLayer(0)
-            self.assertEqual({line.GetField("Layer") for line in drawing}, set(first.name))
+            self.assertEqual({line.GetField("Layer") for line in drawing.GetLayer(0)}, set(first.name))
 
     def test_the_ground_moves_as_its_discs_do(self):
         moved = pandas.read_csv(self.export("displacement", "--at", "1km,2km")[0])

@@ -28,16 +28,9 @@ def column_type(values: list) -> int:
     return ogr.OFTString if any(isinstance(value, (str, list)) for value in values) else ogr.OFTReal
 
 
-def features(path: str) -> list:
-    source = ogr.Open(path)
-    if source is None:
-        raise InputError(f"{path}: no GeoJSON")
-    return list(source.GetLayer(0))
-
-
 def write_columns(layer, lines: list) -> None:
     """GeoPackage: lines with all their properties; lists as text."""
-    definition = lines[0].GetDefnRef()
+    definition = lines[0].GetDefnRef() if lines else ogr.FeatureDefn()  # a moment may have none
     names = [definition.GetFieldDefn(k).GetName() for k in range(definition.GetFieldCount())]
     for name in names:
         layer.CreateField(ogr.FieldDefn(name, column_type([line.GetField(name) for line in lines])))
@@ -66,9 +59,8 @@ def main(path: str, target: str) -> None:
     stem, ending = os.path.splitext(target)
     if ending not in DRIVERS:
         raise InputError(f"{target}: needs {' or '.join(DRIVERS)}")
-    lines = features(path)
-    if not lines:
-        raise InputError(f"{path}: no lines")
+    source = ogr.Open(path)  # lives as long as its features
+    lines = list(source.GetLayer(0))
     section = osr.SpatialReference()
     section.ImportFromWkt(ENGINEERING)
     temporary = f"{stem}.{os.getpid()}.part{ending}"
