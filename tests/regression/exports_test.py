@@ -181,6 +181,20 @@ class Exports(unittest.TestCase):
             self.assertIn("ENGCRS", package.GetSpatialRef().ExportToWkt(["FORMAT=WKT2_2019"]))
             self.assertEqual({line.GetField("Layer") for line in drawing.GetLayer(0)}, set(first.name))
 
+    def test_polylines_and_points_of_models_are_where_pandas_has_them(self):
+        polylines, points, file = self.export("horizons", "--at", "2km", "--format", "pl,gempy,csv")
+        table = pandas.read_csv(file)
+        vertices = [line.split() for line in polylines.read_text().splitlines() if line.startswith("VRTX ")]
+        np.testing.assert_array_equal([[float(x), -float(z)] for _, _, x, _, z in vertices], table[["x_m", "depth_m"]])
+        self.assertEqual(polylines.read_text().count("GOCAD PLine 1"), table.line.nunique())
+        model = pandas.read_csv(points)
+        self.assertEqual(list(model.columns), ["X", "Y", "Z", "surface", "dip", "azimuth", "polarity"])
+        self.assertLessEqual(set(model.surface), set(table.name))
+        self.assertTrue(((model.dip >= 0.0) & (model.dip <= 90.0)).all())
+        piece = table[table.line == table.line[0]]
+        falls = piece.depth_m.to_numpy()[2:] > piece.depth_m.to_numpy()[:-2]   # to the right
+        np.testing.assert_array_equal(model.azimuth.to_numpy()[1:len(piece) - 1], np.where(falls, 90, 270))
+
     def test_the_ground_moves_as_its_discs_do(self):
         moved = pandas.read_csv(self.export("displacement", "--at", "1km,2km")[0])
         self.assertGreater(len(moved), 20)

@@ -52,7 +52,8 @@ constexpr std::string_view film_endings[] = {".mp4", ".gif", ".webp"};
 constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces",
                                              "base",     "layers", "displacement"};
 constexpr std::string_view well_exports[] = {"well", "burial"};
-constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt", ".gpkg", ".dxf"};
+constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt",  ".gpkg",
+                                             ".dxf", ".pl",      ".gempy"};
 constexpr std::string_view seismic_endings[] = {".segy", "-image.npy", "-faults.npy", "-strain.npy",
                                                 ".json"};
 constexpr std::string_view series_parts[] = {"discs", "contacts", "base"};

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -140,6 +141,42 @@ std::string to_gmt(const LineTable& table) {
             text += '\n';
         });
     }
+    return text;
+}
+
+std::string to_gocad(const LineTable& table) {
+    std::string text;
+    for (const Line& line : table.lines) {
+        std::string name = gmt_word(line.values.front());
+        std::ranges::replace(name, ' ', '_');
+        text += fmt::format("GOCAD PLine 1\nHEADER {{\nname: {}\n}}\n"
+                            "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME section\nAXIS_NAME \"X\" \"Y\" "
+                            "\"Z\"\nAXIS_UNIT \"m\" \"m\" \"m\"\nZPOSITIVE Elevation\n"
+                            "END_ORIGINAL_COORDINATE_SYSTEM\nILINE\n",
+                            name);
+        for (std::size_t k = 0; k < line.points.size(); ++k)
+            text += fmt::format("VRTX {} {} 0 {}\n", k + 1, number(line.points[k].x, "0"),
+                                number(line.points[k].y, "0"));
+        for (std::size_t k = 1; k < line.points.size(); ++k)
+            text += fmt::format("SEG {} {}\n", k, k + 1);
+        text += "END\n";
+    }
+    return text;
+}
+
+std::string to_gempy(const LineTable& table) {
+    constexpr double degree = 3.14159265358979323846 / 180.0;
+    std::string text = "X,Y,Z,surface,dip,azimuth,polarity\n";
+    for (const Line& line : table.lines)
+        for (std::size_t k = 0; line.points.size() > 1 && k < line.points.size(); ++k) {
+            const dem::Point a = line.points[k == 0 ? 0 : k - 1];
+            const dem::Point b = line.points[std::min(k + 1, line.points.size() - 1)];
+            const double right = std::abs(b.x - a.x), down = (b.x < a.x ? b.y - a.y : a.y - b.y);
+            text +=
+                fmt::format("{},0,{},{},{:.2f},{},1\n", number(line.points[k].x, ""),
+                            number(line.points[k].y, ""), csv_cell(word(line.values.front(), "")),
+                            std::atan2(std::abs(down), right) / degree, down < 0.0 ? 270 : 90);
+        }
     return text;
 }
 

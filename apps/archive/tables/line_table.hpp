@@ -47,4 +47,12 @@ std::string to_geojson(const LineTable& table);
 /// the point's own.
 std::string to_gmt(const LineTable& table);
 
+/// GOCAD polylines (ASCII .pl), an ILINE per line under its name: x, 0, height above the original
+/// surface.
+std::string to_gocad(const LineTable& table);
+
+/// Points of lines as models of implicit surfaces read them: X, Y = 0, Z up, surface, and the dip,
+/// azimuth (90: to the right) and polarity of the line there.
+std::string to_gempy(const LineTable& table);
+
 } // namespace listric::archive

@@ -27,7 +27,8 @@ Command add_export(CLI::App& program) {
     add_output(*command, request->folder, "DIR/export", "folder of the files");
     command
         ->add_option("--format", request->formats,
-                     "csv, geojson, gmt, gpkg or dxf; for discs csv or gsd; for seismic segy or "
+                     "csv, geojson, gmt, gpkg, dxf, pl (GOCAD) or gempy; for discs csv or gsd; for "
+                     "seismic segy or "
                      "npy; several "
                      "with commas")
         ->type_name("FORMAT")

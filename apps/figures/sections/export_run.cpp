@@ -47,7 +47,8 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-    static const std::vector<std::string_view> of_lines{"csv", "geojson", "gmt", "gpkg", "dxf"};
+    static const std::vector<std::string_view> of_lines{"csv", "geojson", "gmt",  "gpkg",
+                                                        "dxf", "pl",      "gempy"};
     static const std::vector<Kind> all{
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
@@ -148,6 +149,8 @@ void warn_of_dry_wells(const ExportRequest& request, const LineTable& burial,
 std::string written(const LineTable& table, const std::string& format) {
     return format == "csv"       ? to_csv(table)
            : format == "geojson" ? to_geojson(table)
+           : format == "pl"      ? to_gocad(table)
+           : format == "gempy"   ? to_gempy(table)
                                  : to_gmt(table);
 }
 
