@@ -4,7 +4,7 @@ packages=(g++ cmake ninja-build pkg-config libhdf5-dev libtomlplusplus-dev libcl
 figure_packages=(libjs-dygraphs python3-matplotlib) # without them the program runs and draws less
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-segyio python3-gdal python3-jsonschema
     groff-base chromium chromium-driver python3-selenium python3-h5py python3-pandas
-    python3-nbclient python3-nbformat python3-ipykernel mkdocs katex
+    python3-sklearn python3-nbclient python3-nbformat python3-ipykernel mkdocs katex
     python3-paraview xvfb xauth)
 fem_packages=(libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh)
 ranks_packages=(petsc-dev libopenmpi-dev openmpi-bin)

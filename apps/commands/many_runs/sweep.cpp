@@ -4,6 +4,7 @@
 #include "apps/commands/signals.hpp"
 #include "apps/support/error.hpp"
 
+#include <charconv>
 #include <memory>
 #include <utility>
 
@@ -19,6 +20,16 @@ SweepTask parse_task(const std::string& text) {
         static_cast<std::size_t>(used) != text.size() || task.number < 1 || task.number > task.of)
         throw UsageError("--task " + text + ": needs the form i/n, from 1/n to n/n");
     return task;
+}
+
+/// How many points --emulate shall suggest.
+int parse_points(const std::string& text) {
+    constexpr int most = 100;
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || number < 0 || number > most)
+        throw UsageError("--emulate=" + text + ": a number of points to suggest, from 0 to 100");
+    return number;
 }
 
 /// Refuses options that belong to another use of the call.
@@ -41,6 +52,7 @@ Command add_sweep(CLI::App& program) {
     const auto request = std::make_shared<SweepRequest>();
     const auto task = std::make_shared<std::string>();
     const auto list = std::make_shared<std::pair<bool, bool>>(false, false); // asked for, as JSON
+    const auto suggest = std::make_shared<std::string>();                    // empty: no emulator
     CLI::App* command =
         add_call(program, {"Many runs",
                            "sweep",
@@ -70,13 +82,25 @@ Command add_sweep(CLI::App& program) {
         ->expected(1, 100'000);
     command->add_flag("--so-far", request->so_far,
                       "merge though runs are missing: their outcome is \"not yet\"");
+    command
+        ->add_flag(
+            "--emulate{0}", *suggest,
+            "what the table says of runs that nobody has made: errors and Sobol's indices by "
+            "measure; N: print so many points that would tell most; make no run")
+        ->type_name("N")
+        ->default_str("none")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_quiet(*command, request->quiet);
     return {command,
-            [request, task, list] {
+            [request, task, list, suggest] {
                 if (!task->empty())
                     request->task = parse_task(*task);
                 require_one_of(*request, *list);
                 request->stop = stop_on_signals();
+                if (!suggest->empty()) {
+                    emulate_sweep(*request, parse_points(*suggest));
+                    return ExitCode::done;
+                }
                 if (list->first) {
                     list_sweep(*request, list->second);
                     return ExitCode::done;

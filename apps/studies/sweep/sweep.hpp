@@ -33,6 +33,11 @@ bool run_sweep(const SweepRequest& request);
 /// The folder of a call's results, its own if it names none.
 std::filesystem::path sweep_folder(const SweepRequest& request, const SweepPlan& plan);
 
+/// What the table of a sweep says of runs that nobody has made (emulator.py): leaves emulator.csv
+/// and emulator.png beside it, and prints a plan of `suggest` points that would tell most; 0: none.
+/// Throws UsageError, SceneError.
+void emulate_sweep(const SweepRequest& request, int suggest);
+
 /// Prints a call of the program for each run, with its own folder, for engines that make them; as
 /// text with its price behind #, or as JSON. Throws UsageError, SceneError.
 void list_sweep(const SweepRequest& request, bool as_json);
