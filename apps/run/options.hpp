@@ -36,7 +36,7 @@ struct RunOptions {
     bool live = false;   ///< and after every window
     Lean lean = Lean::no;
     bool warned = false; ///< the caller has told what the scene warns of
-    StopToken stop; ///< where it is requested, the run saves and stops as soon as it can
+    StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
 
     archive::ExistingRun existing() const {
         using enum archive::ExistingRun;

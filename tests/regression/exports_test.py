@@ -167,8 +167,8 @@ class Exports(unittest.TestCase):
                     self.assertEqual(feature.GetField("depth_reference"), LEVEL)
 
     def test_gdal_reads_what_it_has_written(self):
-        for kind, words in (("horizons", ("--at", "2km")), ("faults", ("--at", "2km")), ("displacement", ("--at", "1km,2km"))):
-            *_, file = self.export(kind, *words, "--format", "gpkg,dxf,csv")
+        for kind, at in ("horizons", "2km"), ("faults", "2km"), ("displacement", "1km,2km"):
+            *_, file = self.export(kind, "--at", at, "--format", "gpkg,dxf,csv")
             table = pandas.read_csv(file)
             data, drawing = (ogr.Open(str(file.with_suffix(ending))) for ending in (".gpkg", ".dxf"))
             package = data.GetLayer(0)

@@ -124,7 +124,7 @@ constexpr FaultField fields[] = {
      "thinner than three",
      throws_of},
     {field_points, "m", "points of the line, one per diameter", points_of},
-    {"greatest_throw_m", "m",
+    {field_greatest_throw, "m",
      "greatest of `throw_m` over the horizons of rock before extension, the pre-rift top and the "
      "layers below it; of negative ones the one furthest from 0",
      greatest_throw_of, 17, "greatest throw"},

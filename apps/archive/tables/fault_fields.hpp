@@ -44,6 +44,7 @@ nlohmann::ordered_json fault_object(const FaultPlace& place, std::span<const Fau
 
 /// Names of fields that other files have, too.
 inline constexpr std::string_view field_width = "width_diameters", field_throw = "throw_m",
+                                  field_greatest_throw = "greatest_throw_m",
                                   field_points = "points_m", field_slip = "slip_m",
                                   field_dip_at_birth = "dip_at_birth_deg",
                                   field_rate = "rate_mm_per_a";

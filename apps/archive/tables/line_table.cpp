@@ -2,6 +2,8 @@
 
 #include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/csv_records.hpp"
+#include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -165,17 +167,17 @@ std::string to_gocad(const LineTable& table) {
 }
 
 std::string to_gempy(const LineTable& table) {
-    constexpr double degree = 3.14159265358979323846 / 180.0;
+    constexpr double degree = dem::pi / 180.0;
     std::string text = "X,Y,Z,surface,dip,azimuth,polarity\n";
     for (const Line& line : table.lines)
         for (std::size_t k = 0; line.points.size() > 1 && k < line.points.size(); ++k) {
             const dem::Point a = line.points[k == 0 ? 0 : k - 1];
             const dem::Point b = line.points[std::min(k + 1, line.points.size() - 1)];
             const double right = std::abs(b.x - a.x), down = (b.x < a.x ? b.y - a.y : a.y - b.y);
-            text +=
-                fmt::format("{},0,{},{},{:.2f},{},1\n", number(line.points[k].x, ""),
-                            number(line.points[k].y, ""), csv_cell(word(line.values.front(), "")),
-                            std::atan2(std::abs(down), right) / degree, down < 0.0 ? 270 : 90);
+            text += fmt::format(
+                "{},0,{},{},{:.2f},{},1\n", number(line.points[k].x, ""),
+                number(line.points[k].y, ""), csv_cell(word(line.values.front(), "")),
+                dem::arc_tangent(std::abs(down), right) / degree, down < 0.0 ? 270 : 90);
         }
     return text;
 }

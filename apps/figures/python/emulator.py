@@ -3,15 +3,17 @@
 
 Usage: emulator.py TABLE PARAMETERS DIR [SUGGEST]
 
-TABLE is sweep.csv; PARAMETERS is JSON, {"parameters": [[name, least, greatest], ...], "measures": [...]}; DIR gets emulator.csv and
-emulator.png: for each measure the error of predictions of points that were left out with all their seeds, how many of these lie
-within the bands of 90 %, Sobol's indices, and whether the emulator may be used.  SUGGEST is a number of points that would tell
-most; what is to be said, with these as tables of a plan, goes into said.txt beside PARAMETERS.  Files are written under temporary names and then renamed.  On bad input: one line on stderr,
-exit status 2.
+TABLE is sweep.csv; PARAMETERS is JSON, {"parameters": [[name, least, greatest], ...], "measures": [...]}; DIR
+gets emulator.csv and emulator.png: for each measure the error of predictions of points that were left out with
+all their seeds, how many of these lie within the bands of 90 %, Sobol's indices, and whether the emulator may be
+used.  SUGGEST is a number of points that would tell most.  What is to be said, with these as tables of a plan,
+goes into said.txt beside PARAMETERS.  Files are written under temporary names and then renamed.  On bad input:
+one line on stderr, exit status 2.
 
-The process (Rasmussen and Williams 2006) has Matern's covariance of 5/2 with a length per parameter, and noise, which is that of
-seeds.  Errors of left-out points are exact for its fitted lengths; bands are widened or narrowed to hold 90 % of them (as in
-conformal prediction).  Indices are those of Saltelli et al. 2010 (first) and Jansen 1999 (total).
+The process (Rasmussen and Williams 2006) has Matern's covariance of 5/2 with a length per parameter, and noise,
+which is that of seeds.  Errors of left-out points are exact for its fitted lengths; bands are widened or narrowed
+to hold 90 % of them (as in conformal prediction).  Indices are those of Saltelli et al. 2010 (first) and Jansen
+1999 (total).
 """
 import csv
 import io
@@ -56,6 +58,10 @@ class Emulator:
         return mean, self.width * deviation
 
     @property
+    def rms(self) -> float:
+        return float(np.sqrt((self.errors**2).mean()))
+
+    @property
     def verdict(self) -> str:
         if self.explained < LEAST_SHARE:
             return f"no: explains {100.0 * max(0.0, self.explained):.0f} % between points"
@@ -68,8 +74,10 @@ def covariance(process: GaussianProcessRegressor, x: np.ndarray) -> np.ndarray:
     return process.kernel_(x)
 
 
-def left_out(process: GaussianProcessRegressor, x: np.ndarray, y: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Errors and deviations of each run, predicted without the runs of its point (Rasmussen and Williams 2006, 5.12, by blocks)."""
+def left_out(process: GaussianProcessRegressor, x: np.ndarray, y: np.ndarray,
+             point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Errors and deviations of each run, predicted without the runs of its point (Rasmussen and Williams 2006,
+    5.12, by blocks)."""
     scale, middle = float(process._y_train_std), float(process._y_train_mean)
     inverse = np.linalg.inv(covariance(process, x))
     weighted = inverse @ ((y - middle) / scale)
@@ -157,7 +165,8 @@ def load(path: str, parameters: list) -> tuple[list[dict], np.ndarray, np.ndarra
 def require_enough(path: str, points: int, parameters: int) -> None:
     least = max(LEAST_POINTS, POINTS_PER_PARAMETER * parameters)
     if points < least:
-        raise InputError(f"{path}: {points} finished points; an emulator of {parameters} parameters needs {least} or more: samples of a Latin hypercube")
+        raise InputError(f"{path}: {points} finished points; an emulator of {parameters} parameters needs {least} or "
+                         "more: samples of a Latin hypercube")
 
 
 def draw(path: str, found: dict, names: list[str], truth: dict):
@@ -165,8 +174,8 @@ def draw(path: str, found: dict, names: list[str], truth: dict):
     grid = figure.subplots(len(found), 2, squeeze=False)
     place = np.arange(len(names))
     for (left, right), (measure, (emulator, first, total)) in zip(grid, found.items()):
-        left.errorbar(truth[measure], truth[measure] + emulator.errors, yerr=emulator.width * emulator.deviations, fmt="o", ms=2.5,
-                      lw=0.5, color="#1f6fb4", ecolor="#b9cfe3")
+        left.errorbar(truth[measure], truth[measure] + emulator.errors, yerr=emulator.width * emulator.deviations,
+                      fmt="o", ms=2.5, lw=0.5, color="#1f6fb4", ecolor="#b9cfe3")
         ends = [truth[measure].min(), truth[measure].max()]
         left.plot(ends, ends, color=INK, lw=0.8)
         left.set_xlabel("computed")
@@ -206,8 +215,9 @@ def main(table: str, order: str, folder: str, suggest: str = "0") -> None:
         first, total = sobol(emulator, len(names)) if emulator.verdict == "yes" else np.full((2, len(names)), np.nan)
         found[measure], truth[measure] = (emulator, first, total), y
         within = (np.abs(emulator.errors) <= emulator.width * emulator.deviations).mean()
-        out.writerow([measure, emulator.verdict, len(np.unique(point)), f"{np.sqrt((emulator.errors**2).mean()):.4g}",
-                      f"{y.std():.4g}", f"{within:.3f}"] + [f"{value:.3f}" if np.isfinite(value) else "" for pair in zip(first, total) for value in pair])
+        indices = [f"{value:.3f}" if np.isfinite(value) else "" for pair in zip(first, total) for value in pair]
+        out.writerow([measure, emulator.verdict, len(np.unique(point)), f"{emulator.rms:.4g}", f"{y.std():.4g}",
+                      f"{within:.3f}"] + indices)
     if not found:
         raise InputError(f"{table}: no measure that all points have")
     temporary = os.path.join(folder, f".emulator-{os.getpid()}.part")
@@ -217,12 +227,14 @@ def main(table: str, order: str, folder: str, suggest: str = "0") -> None:
     with matplotlib.rc_context(STYLE):
         draw(folder, found, names, truth)
     said = []
-    for measure, (emulator, first, total) in found.items():
-        shares = ", ".join(f"{name} {100.0 * share:.0f} %" for share, name in sorted(zip(total, names), reverse=True)[:3])
-        said.append(f"{measure}: {emulator.verdict}; a run's error {np.sqrt((emulator.errors**2).mean()):.3g} of a spread of "
-                    f"{truth[measure].std():.3g}" + (f"; {shares}" if emulator.verdict == "yes" else ""))
+    for measure, (emulator, _, total) in found.items():
+        largest = sorted(zip(total, names), reverse=True)[:3]
+        shares = "".join(f"; {name} {100.0 * share:.0f} %" for share, name in largest if emulator.verdict == "yes")
+        said.append(f"{measure}: {emulator.verdict}; a run's error {emulator.rms:.3g} of a spread of "
+                    f"{truth[measure].std():.3g}{shares}")
     if int(suggest):
-        good = [emulator for emulator, _, _ in found.values() if emulator.verdict == "yes"] or [e for e, _, _ in found.values()]
+        emulators = [emulator for emulator, _, _ in found.values()]
+        good = [emulator for emulator in emulators if emulator.verdict == "yes"] or emulators
         said += plan_of(suggestions(good, x, min(int(suggest), MOST_SUGGESTED)), parameters)
     with open(os.path.join(os.path.dirname(order), "said.txt"), "w", encoding="utf-8") as file:
         file.write("".join(f"{line}\n" for line in said))

@@ -23,8 +23,9 @@ from script import InputError
 SYNTHETIC, ANTITHETIC, TOP, CHANCE = "#b4561d", "#1f6fb4", "#444444", "#8a8a8a"
 WIDTH, SECTION, CHANCES, ROW_EXTRA = 10.0, 3.1, 1.15, 0.95   # inches
 MOST_SCENES, MOST_TOPS = 12, 8
-SHOWN = ("greatest_throw_m", "depocentre_x_m", "depocentre_thickness_m", "rollover_tilt_deg", "halfgraben_area_share", "basin_area_m2", "cutoff_x_m", "strain_top10",
-         "strain_top10_cumulative", "intervening_high_x_m", "basement_unbonded_fraction")
+SHOWN = ("greatest_throw_m", "depocentre_x_m", "depocentre_thickness_m", "rollover_tilt_deg",
+         "halfgraben_area_share", "basin_area_m2", "cutoff_x_m", "strain_top10", "strain_top10_cumulative",
+         "intervening_high_x_m", "basement_unbonded_fraction")
 
 
 def chosen(tops: list[dict]) -> list[dict]:
@@ -44,7 +45,8 @@ def draw_section(ax, scene: dict) -> None:
     for synthetic, colour in ((True, SYNTHETIC), (False, ANTITHETIC)):
         lines = [np.array(fault["points"]) / 1e3 for seed in scene["runs"] for fault in seed["faults"]
                  if fault["synthetic"] is synthetic]
-        ax.add_collection(LineCollection(lines, colors=colour, linewidths=1.0, alpha=max(0.3, 1.0 / len(scene["runs"]) ** 0.4)))
+        faint = max(0.3, 1.0 / len(scene["runs"]) ** 0.4)
+        ax.add_collection(LineCollection(lines, colors=colour, linewidths=1.0, alpha=faint))
     if scene["base"]:
         base = np.array(scene["base"]) / 1e3
         ax.plot(base[:, 0], base[:, 1], color=INK, lw=1.4)
@@ -63,8 +65,8 @@ def draw_chances(ax, scene: dict) -> None:
     x, met, of, low, high = np.array(scene["chances"]).T
     share = met / of
     ax.bar(x / 1e3, share, width=0.86, color=CHANCE, lw=0)
-    ax.errorbar(x / 1e3, share, yerr=(np.maximum(0.0, share - low), np.maximum(0.0, high - share)), fmt="none", ecolor=INK,
-                elinewidth=0.6)
+    away = np.maximum(0.0, (share - low, high - share))
+    ax.errorbar(x / 1e3, share, yerr=away, fmt="none", ecolor=INK, elinewidth=0.6)
     ax.set_xlim(0.0, scene["length_m"] / 1e3)
     ax.set_ylim(0.0, 1.0)
     ax.set_yticks((0.0, 0.5, 1.0))
@@ -85,8 +87,8 @@ def draw(scenes: list[dict]):
         draw_chances(figure.add_axes((0.75 / WIDTH, bottom / up, wide, (CHANCES - 0.25) / up)), scene)
         draw_section(figure.add_axes((0.75 / WIDTH, (bottom + CHANCES - 0.1) / up, wide, high / up)), scene)
     left_out = len(scenes) - len(shown)
-    figure.text(0.1 / WIDTH, 0.12 / up, "faults that are active at the end: orange dip as the detachment does, blue against it; tops: mean and "
-                "standard deviation; bars: a fault's upper end in this km, line: exact 90 % interval"
+    figure.text(0.1 / WIDTH, 0.12 / up, "faults that are active at the end: orange dip as the detachment does, blue "
+                "against it; tops: mean and standard deviation; bars: a fault's upper end in this km, line: exact 90 % interval"
                 + (f"; {left_out} more scenes are in the tables" if left_out else ""), fontsize=7.5, color=FAINT)
     return figure
 
@@ -107,9 +109,11 @@ def scatter(scenes: list[dict], measure: str) -> str:
         link = quote(seed["folder"] + ("/report.html" if seed["has_report"] else "/"))
         marks.append(f'<a href="{link}"><circle cx="{x}" cy="{y:.1f}" r="5"><title>scene {k + 1}, seed {seed["seed"]}: '
                      f'{value:.5g}</title></circle></a>')
-    names = "".join(f'<text x="{70 + 46 * k}" y="{tall - 8}" text-anchor="middle">{k + 1}</text>' for k in range(len(scenes)))
+    names = "".join(f'<text x="{70 + 46 * k}" y="{tall - 8}" text-anchor="middle">{k + 1}</text>'
+                    for k in range(len(scenes)))
     return (f'<figure><figcaption>{html.escape(measure)}</figcaption><svg width="{wide}" height="{tall}" role="img">'
-            f'<text x="4" y="24">{high:.4g}</text><text x="4" y="{tall - 26}">{low:.4g}</text>{names}{"".join(marks)}</svg></figure>')
+            f'<text x="4" y="24">{high:.4g}</text><text x="4" y="{tall - 26}">{low:.4g}</text>'
+            f'{names}{"".join(marks)}</svg></figure>')
 
 
 def page(scenes: list[dict], folder: str) -> str:
@@ -119,20 +123,24 @@ def page(scenes: list[dict], folder: str) -> str:
     rows = "".join(
         f'<tr><td>{k}</td><td>{html.escape(scene["title"])}</td><td><a href="{quote(seed["folder"])}/'
         f'{"report.html" if seed["has_report"] else ""}">{html.escape(seed["folder"])}</a></td><td>{seed["seed"]}</td>'
-        + "".join(f'<td>{seed["measures"][name]:.4g}</td>' if name in seed["measures"] else "<td></td>" for name in measures) + "</tr>"
+        + "".join(f'<td>{seed["measures"][name]:.4g}</td>' if name in seed["measures"] else "<td></td>"
+                  for name in measures) + "</tr>"
         for k, scene in enumerate(scenes, 1) for seed in scene["runs"])
     number = sum(len(scene["runs"]) for scene in scenes)
     return f"""<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Listric: {number} runs</title>
 <style>body{{font:15px/1.45 sans-serif;margin:1.5rem auto;max-width:72rem;padding:0 1rem}}img{{max-width:100%}}
-figure{{display:inline-block;margin:0 1rem 1rem 0}}svg text{{font-size:11px;fill:#555}}circle{{fill:#1f6fb4;fill-opacity:.6}}
-circle:hover{{fill:#b4561d}}table{{border-collapse:collapse;font-size:13px}}td,th{{padding:.15rem .6rem;text-align:right}}</style></head>
+figure{{display:inline-block;margin:0 1rem 1rem 0}}svg text{{font-size:11px;fill:#555}}
+circle{{fill:#1f6fb4;fill-opacity:.6}}circle:hover{{fill:#b4561d}}
+table{{border-collapse:collapse;font-size:13px}}td,th{{padding:.15rem .6rem;text-align:right}}</style></head>
 <body><h1>{number} runs, {len(scenes)} scene{"s" if len(scenes) > 1 else ""}</h1>
 <p><img alt="faults of all seeds on one section" src="data:image/png;base64,{picture}"></p>
 <h2>Measures</h2><p>A point is a run; a click opens it. Numbers below are those of the scenes in the table.</p>
 {"".join(scatter(scenes, name) for name in measures)}
-<h2>Runs</h2><table><tr><th></th><th>scene</th><th>run</th><th>seed</th>{"".join(f"<th>{name}</th>" for name in measures)}</tr>{rows}</table>
-<p>Tables: <a href="seeds.csv">seeds.csv</a>, <a href="seed-tops.csv">seed-tops.csv</a>, <a href="seed-measures.csv">seed-measures.csv</a>.</p>
+<h2>Runs</h2><table><tr><th></th><th>scene</th><th>run</th><th>seed</th>
+{"".join(f"<th>{name}</th>" for name in measures)}</tr>{rows}</table>
+<p>Tables: <a href="seeds.csv">seeds.csv</a>, <a href="seed-tops.csv">seed-tops.csv</a>,
+<a href="seed-measures.csv">seed-measures.csv</a>.</p>
 </body></html>
 """
 

@@ -181,6 +181,18 @@ void write_lines(LineTable table, std::string_view kind, const fs::path& snapsho
     }
 }
 
+/// Says why a run can have no lines of a kind. Throws UsageError.
+void require_lines(const LineTable& table, const Kind& kind, const fs::path& output) {
+    if (!table.lines.empty())
+        return;
+    if (kind.name == "base")
+        throw UsageError(output.string() +
+                         ": the base of this run is rigid; there is no deflection to export");
+    if (kind.name == "layers")
+        throw UsageError(output.string() +
+                         ": this run's hanging wall is of one rock; layers need [[layer]]");
+}
+
 } // namespace
 
 std::vector<std::string_view> export_kinds() {
@@ -245,12 +257,7 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (trajectory && request.formats.size() == 1)
             continue;
         LineTable table = kind.table(at);
-        if (table.lines.empty() && kind.name == "base")
-            throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
-                                                       "no deflection to export");
-        if (table.lines.empty() && kind.name == "layers")
-            throw UsageError(request.output.string() + ": this run's hanging wall is of one rock; "
-                                                       "layers need [[layer]]");
+        require_lines(table, kind, request.output);
         const bool is_drilled =
             kind.name == "well" && (!request.extensions.empty() || path == moments.back());
         if (is_drilled) {

@@ -91,17 +91,19 @@ void add_results(EnsembleRun& end, const JsonObject& summary) {
     for (const auto& [name, value] : summary.items())
         if (value.is_number())
             end.measures[name] = value.get<double>();
+    std::optional<double> largest;
     for (const auto& fault : summary.value("faults", nlohmann::ordered_json::array())) {
         EnsembleFault line{{}, fault.value("attitude", "") == "synthetic"};
         for (const auto& point : fault.value(field_points, nlohmann::ordered_json::array()))
             line.points.push_back({point.at(0).get<double>(), -point.at(1).get<double>()});
         if (!line.points.empty())
             end.faults.push_back(std::move(line));
-        if (const auto thrown = fault.find("greatest_throw_m");
+        if (const auto thrown = fault.find(field_greatest_throw);
             thrown != fault.end() && thrown->is_number())
-            end.measures["greatest_throw_m"] =
-                std::max(end.measures["greatest_throw_m"], thrown->get<double>());
+            largest = std::max(largest.value_or(0.0), thrown->get<double>());
     }
+    if (largest)
+        end.measures[std::string(field_greatest_throw)] = *largest;
     const auto depocentres = summary.value("depocentres", nlohmann::ordered_json::array());
     if (!depocentres.empty()) // the thickest first
         for (const char* key : {"x_m", "thickness_m"})

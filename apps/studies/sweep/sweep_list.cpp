@@ -5,6 +5,7 @@
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/sweep/sweep_table.hpp"
 #include "apps/support/machine/shell.hpp"
+#include "dem/numbers/elementary.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,9 @@ public:
     CycleSpeed of(const Scene& scene) {
         const std::size_t discs = estimated_discs(scene);
         const bool accounted = make_parts(scene).accounts_energy;
-        const std::pair key(static_cast<int>(4.0 * std::log2(static_cast<double>(discs))),
-                            accounted);
+        const std::pair key(
+            static_cast<int>(4.0 * dem::logarithm_to_base_2(static_cast<double>(discs))),
+            accounted);
         const auto known = known_.find(key);
         return known != known_.end()
                    ? known->second
