@@ -76,8 +76,9 @@ std::vector<Plane> planes_through(std::span<const StressPoint> points,
                     p.slope[c] = p.slope[c] + (stress[3 * i + c] - p.mean[c]) * d;
             });
             const double determinant = p.xx * p.yy - p.xy * p.xy;
-            for (Vector& s : p.slope) // points in a line have no plane
-                s = determinant > 1e-6 * p.xx * p.yy
+            const double spread = p.xx + p.yy;
+            for (Vector& s : p.slope) // points in a line, or almost, have no plane
+                s = determinant > 1e-4 * spread * spread
                         ? 1.0 / determinant *
                               Vector{p.yy * s.x - p.xy * s.y, p.xx * s.y - p.xy * s.x}
                         : Vector{};

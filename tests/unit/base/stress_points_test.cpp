@@ -114,6 +114,15 @@ TEST(StressPoints, RocksOfAnElementKeepTheirOwn) {
     EXPECT_TRUE(carried_over({}, {}, {}).empty());
 }
 
+/// A column of points that stand in a line but for round-off says nothing of what lies beside it.
+TEST(StressPoints, ALineIsNoPlane) {
+    const std::vector<StressPoint> from = {
+        {{1e5, 0.0}, 1.0, 0}, {{1e5 + 1e-11, 1e3}, 1.0, 0}, {{1e5, 2e3}, 1.0, 0}};
+    const std::vector<double> stress = {1, 1, 1, 2, 2, 2, 3, 3, 3};
+    const std::vector<StressPoint> to = {{{1.01e5, 1e3}, 1.0, 0}};
+    EXPECT_NEAR(carried_over(from, stress, to)[0], 2.0, 1e-9);
+}
+
 TEST(StressPoints, TheNearestIsTheNearest) {
     const std::vector<StressPoint> from = points();
     const fem::NearestPoint nearest(from);
