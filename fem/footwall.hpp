@@ -4,8 +4,8 @@
 // knows no discs and names no finite-element library, which lives in a plug-in that is loaded when
 // a scene asks for an elastic base.
 
+#include "fem/relaxation.hpp"
 #include "fem/request.hpp"
-#include "fem/stress_points.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "fem/material.hpp"
 
-#include "fem/maxwell.hpp"
+#include "fem/relaxation.hpp"
 
 #include <cassert>
 #include <utility>

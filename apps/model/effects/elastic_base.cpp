@@ -11,7 +11,7 @@
 #include "dem/numbers/elementary.hpp"
 #include "dem/numbers/units.hpp"
 #include "fem/blocks.hpp"
-#include "fem/maxwell.hpp"
+#include "fem/relaxation.hpp"
 #include "fem/mesh_scan.hpp"
 
 #include <fmt/format.h>

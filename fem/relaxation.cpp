@@ -1,11 +1,19 @@
-#include "fem/stress_points.hpp"
+#include "fem/relaxation.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace listric::fem {
+
+Maxwell maxwell(double step, double time) {
+    const double steps = step > 0.0 ? step / time : 0.0;
+    if (steps == 0.0)
+        return {};
+    return {std::exp(-steps), std::max(least_share, -std::expm1(-steps) / steps)};
+}
 
 NearestPoint::NearestPoint(std::span<const StressPoint> points) {
     assert(!points.empty());

@@ -1,5 +1,7 @@
 #pragma once
 
+// Rock whose deviatoric stress relaxes (Maxwell): over a step, and from mesh to mesh.
+
 #include "fem/vector.hpp"
 
 #include <cstddef>
@@ -8,6 +10,21 @@
 #include <vector>
 
 namespace listric::fem {
+
+/// Over a step in which strain is straight in time, the stress at the step's end is decay times
+/// that at its start and share times what elastic rock would have of the strain since. Exact for a
+/// steady rate of strain, of second order in the step else.
+struct Maxwell {
+    double decay = 1.0;
+    double share = 1.0; ///< of the shear modulus
+};
+
+/// Least share: with less, rock is incompressible to its elements.
+inline constexpr double least_share = 0.002;
+
+/// @param step  s; 0: rock answers at once
+/// @param time  of relaxation, viscosity over shear modulus, s; infinite: rock is elastic
+Maxwell maxwell(double step, double time);
 
 /// A quadrature point of rock that relaxes. A stress there is its deviator's xx, yy and xy, Pa;
 /// zz is what makes its trace 0.

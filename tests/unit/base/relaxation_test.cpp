@@ -1,14 +1,13 @@
 // Maxwell's rock over a step, and stress that another mesh takes over.
 
-#include "fem/maxwell.hpp"
-#include "fem/stress_points.hpp"
+#include "fem/relaxation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace listric::stress_points_test {
+namespace listric::relaxation_test {
 
 namespace {
 
@@ -134,4 +133,4 @@ TEST(StressPoints, TheNearestIsTheNearest) {
 
 } // namespace
 
-} // namespace listric::stress_points_test
+} // namespace listric::relaxation_test
