@@ -301,7 +301,7 @@ double elements(const Scene& scene) {
            dem::power(4.0, mesh.halvings + base.refinements);
 }
 
-/// Of a step of relaxation, measured with 1,040 elements; disc-steps likewise.
+/// Of a step of relaxation, measured with 1,088 elements; disc-steps likewise.
 constexpr double creep_seconds_of_an_element = 1.7e-5, creep_price_of_an_element = 640.0;
 
 /// How rock relaxes: its times over the steps of the run, memory and time.
