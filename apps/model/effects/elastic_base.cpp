@@ -11,8 +11,8 @@
 #include "dem/numbers/elementary.hpp"
 #include "dem/numbers/units.hpp"
 #include "fem/blocks.hpp"
-#include "fem/relaxation.hpp"
 #include "fem/mesh_scan.hpp"
+#include "fem/relaxation.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -70,7 +70,8 @@ const std::vector<Parameter>& layer_parameters() {
         {"viscosity_pa_s", at<&Layer::viscosity>, "Pa s", between(1e16, 1e30), "eta",
          "viscosity with which shear stress relaxes, beyond skin_thickness_m from the detachment; "
          "none: the layer is elastic",
-         "Lowering it lets the layer shed its stress sooner: it takes viscosity over shear modulus.",
+         "Lowering it lets the layer shed its stress sooner: it takes viscosity over shear "
+         "modulus.",
          between(1e19, 1e25)},
     };
     return parameters;

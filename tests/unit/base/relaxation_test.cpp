@@ -56,8 +56,9 @@ TEST(Maxwell, HeldStressStrainsOn) {
     const double at_once = strain;
     for (int k = 1; k <= 12; ++k) {
         strain += (1.0 - over.decay) * stress / (2.0 * modulus * over.share);
-        if (k == 4 || k == 12)
+        if (k == 4 || k == 12) {
             EXPECT_NEAR(strain / at_once, k == 4 ? 2.0 : 4.0, 1e-6);
+        }
     }
 }
 
@@ -110,7 +111,7 @@ TEST(StressPoints, RocksOfAnElementKeepTheirOwn) {
     const std::vector<double> found = carried_over(from, stress, to);
     EXPECT_NEAR(found[0], 9.0, 1e-12); // a row of points: its mean
     EXPECT_NEAR(found[3], 1.0, 1e-12);
-    EXPECT_TRUE(carried_over({}, {}, {}).empty());
+    EXPECT_TRUE(fem::carried_over({}, {}, {}).empty());
 }
 
 /// A column of points that stand in a line but for round-off says nothing of what lies beside it.
