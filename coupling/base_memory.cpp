@@ -1,5 +1,6 @@
 #include "coupling/base_memory.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace listric::coupling {
@@ -15,6 +16,11 @@ constexpr const char* pushes_name = "pushes";
 constexpr const char* window = "window";
 constexpr const char* window_means = "window_means";
 constexpr const char* last_window = "last_window";
+constexpr const char* creep = "creep";
+constexpr const char* creep_step_name = "creep_step";
+constexpr const char* creep_work_name = "creep_work";
+constexpr const char* cycles_before = "cycles_before"; // in "creep_step": of the window, before it
+constexpr const char* deviator[] = {"stress_xx", "stress_yy", "stress_xy"};
 
 /// The table, writable if the state is.
 auto& table(auto& state, const char* name) {
@@ -92,6 +98,49 @@ std::optional<std::uint64_t> mesh_checksum(const State& state) {
     return static_cast<std::uint64_t>(row.get<std::int64_t>(checksum_name)[0]);
 }
 
+void set_creep(State& state, const CreepMemory& memory) {
+    Table& points = state.base_memory[creep];
+    points.resize(memory.stress.size() / 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::span<double> column = points.add<double>(deviator[c], "Pa", 0.0);
+        for (std::size_t k = 0; k < column.size(); ++k)
+            column[k] = memory.stress[3 * k + c];
+    }
+    Table& step = state.base_memory[creep_step_name];
+    step.resize(1);
+    step.add<double>("step", "s", 0.0)[0] = memory.step;
+    step.add<double>(cycles_before, "1", 0.0); // stays
+    Table& loads = state.base_memory[creep_work_name];
+    loads.resize(memory.work.size());
+    std::ranges::copy(memory.work, loads.add<double>("work", "J/m", 0.0).begin());
+}
+
+std::optional<double> creep_step(const State& state) {
+    const auto found = state.base_memory.find(creep_step_name);
+    if (found == state.base_memory.end())
+        return std::nullopt;
+    return found->second.get<double>("step")[0];
+}
+
+std::vector<double> creep_stress(const State& state) {
+    const auto found = state.base_memory.find(creep);
+    if (found == state.base_memory.end())
+        return {};
+    std::vector<double> stress(3 * found->second.rows());
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto column = found->second.get<double>(deviator[c]);
+        for (std::size_t k = 0; k < column.size(); ++k)
+            stress[3 * k + c] = column[k];
+    }
+    return stress;
+}
+
+std::span<const double> creep_work(const State& state) {
+    const auto found = state.base_memory.find(creep_work_name);
+    return found == state.base_memory.end() ? std::span<const double>{}
+                                            : found->second.get<double>("work");
+}
+
 WindowSums window_sums(State& state) { return sums_of<WindowSums>(state); }
 ConstWindowSums window_sums(const State& state) { return sums_of<ConstWindowSums>(state); }
 
@@ -110,8 +159,14 @@ std::optional<ConstInterfaceMeans> last_window_means(const State& state) {
 }
 
 void keep_window_means(State& state) {
-    const double cycles = window_sums(state).cycles;
-    assert(cycles > 0.0);
+    const auto creeps = state.base_memory.find(creep_step_name);
+    const double cycles =
+        window_sums(state).cycles -
+        (creeps == state.base_memory.end() ? 0.0 : creeps->second.get<double>(cycles_before)[0]);
+    if (!(cycles > 0.0)) {
+        state.base_memory.erase(last_window);
+        return;
+    }
     Table& means = state.base_memory[last_window] = table(state, window_means);
     const InterfaceMeans columns = means_of<InterfaceMeans>(means);
     for (const std::span<double> column : {columns.force, columns.displacement, columns.effects})
@@ -119,12 +174,27 @@ void keep_window_means(State& state) {
             sum /= cycles;
 }
 
-void begin_window_sums(State& state, std::size_t unknowns) {
+namespace {
+
+void begin_means(State& state, std::size_t unknowns, double cycles_so_far) {
     Table means;
     means.resize(unknowns);
     means.add<double>("force", "N", 0.0);
     means.add<double>("displacement", "m", 0.0);
     state.base_memory[window_means] = std::move(means);
+    if (const auto creeps = state.base_memory.find(creep_step_name);
+        creeps != state.base_memory.end())
+        creeps->second.get<double>(cycles_before)[0] = cycles_so_far;
+}
+
+} // namespace
+
+void begin_means_anew(State& state) {
+    begin_means(state, table(state, window_means).rows(), window_sums(state).cycles);
+}
+
+void begin_window_sums(State& state, std::size_t unknowns) {
+    begin_means(state, unknowns, 0.0);
     Table sums;
     sums.resize(1);
     for (const auto& [name, unit] : {std::pair("cycles", "1"), std::pair("reaction_error", "1"),

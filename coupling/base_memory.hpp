@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace listric::coupling {
 
@@ -38,6 +39,18 @@ PushSums push_sums(const dem::State& state);
 /// In table "reference", of a footwall on a mesh from a file, also the checksum of that file.
 void set_mesh_checksum(dem::State& state, std::uint64_t checksum);
 std::optional<std::uint64_t> mesh_checksum(const dem::State& state);
+
+/// What a footwall whose rock relaxes remembers, in tables "creep", "creep_step" and "creep_work".
+struct CreepMemory {
+    double step;                ///< that has begun, s
+    std::vector<double> stress; ///< from before it: fem::Load::stress
+    std::vector<double> work;   ///< of the effects' unit loads on the displacement by it, J/m
+};
+void set_creep(dem::State& state, const CreepMemory& memory);
+
+std::optional<double> creep_step(const dem::State& state);   ///< none: nothing relaxes
+std::vector<double> creep_stress(const dem::State& state);   ///< empty: nothing relaxes
+std::span<const double> creep_work(const dem::State& state); ///< likewise
 
 /// Table "window": a row of sums over the cycles of the window of extension that has begun.
 template <bool writable> struct BasicWindowSums {
@@ -72,7 +85,11 @@ InterfaceMeans interface_sums(dem::State& state, bool with_effects);
 /// None before a window has ended.
 std::optional<ConstInterfaceMeans> last_window_means(const dem::State& state);
 
-/// Makes the means of the window that has begun those of the last window. Needs a cycle in it.
+/// Begins the interface's sums again, within a window, for a base of another stiffness.
+void begin_means_anew(dem::State& state);
+
+/// Makes the means of the window that has begun those of the last window; there are none where it
+/// has no cycle, or none since the base has its stiffness.
 void keep_window_means(dem::State& state);
 
 /// Sets all sums to zero.

@@ -212,7 +212,7 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
         auto event = std::make_unique<BasinWater>(
             solution.base.interface(), parameters, gravity, column_width, calendar, pores,
             flank_left ? std::optional(make_flank(knots, solution)) : std::nullopt);
-        const BasinWater& water = *event;
+        BasinWater& water = *event;
         LoadingEvent effect{.event = std::move(event),
                             .measures = [&water, parameters](const State& state) {
                                 NamedValues all;
@@ -225,6 +225,9 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
         if (flank_left) {
             effect.amounts = [&water](const State&) { return water.flank_pressure(); };
             effect.load_elsewhere = [&water](const State&) { return water.flank_load(); };
+            effect.take_solution = [&water, knots](const LoadSolution& anew) {
+                water.take_flank(make_flank(knots, anew));
+            };
         }
         return effect;
     };

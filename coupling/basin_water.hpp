@@ -82,6 +82,8 @@ public:
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
+    void take_flank(Flank flank) { flank_ = std::move(flank); } ///< of the same knots
+
     std::vector<double> flank_pressure() const; ///< downward, at the flank's knots, Pa
     fem::Load flank_load() const;               ///< the pressure as a load
     double flank_weight() const;                ///< N per m of strike

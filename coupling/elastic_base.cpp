@@ -183,6 +183,25 @@ std::vector<double> ElasticBase::forces_for(std::span<const double> displacement
     return forces;
 }
 
+void ElasticBase::take_compliance(std::vector<double> compliance) {
+    assert(modes_.count() == interface_.unknowns());
+    modes_ = find_modes(compliance, interface_.unknowns());
+    interface_.compliance = std::move(compliance);
+}
+
+void ElasticBase::express(State& state) const {
+    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+    const auto in_turn = [](std::span<const double> x, std::span<const double> y) {
+        std::vector<double> both;
+        for (std::size_t k = 0; k < x.size(); ++k)
+            both.insert(both.end(), {x[k], y[k]});
+        return both;
+    };
+    const ModeColumns modes = mode_columns(state);
+    add_rows(modes_.by_unknown, in_turn(nodes.ux, nodes.uy), modes.displacement);
+    add_rows(modes_.by_unknown, in_turn(nodes.vx, nodes.vy), modes.velocity);
+}
+
 std::vector<double> ElasticBase::interface_forces(const State& state) const {
     std::vector<double> forces = holding_forces(state);
     std::ranges::transform(forces, loads_elsewhere(state, forces.size()), forces.begin(),

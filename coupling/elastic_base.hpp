@@ -77,6 +77,13 @@ public:
     /// displacement together with the effects' loads elsewhere.
     std::vector<double> interface_forces(const dem::State& state) const;
 
+    /// Takes another compliance of the same nodes. All modes must be kept: those of one compliance
+    /// are not those of another. A state's need express().
+    void take_compliance(std::vector<double> compliance);
+
+    /// Gives the modes the place and the velocity that the nodes have.
+    void express(dem::State& state) const;
+
     /// Means of the window that has begun.
     WindowBalance window(const dem::State& state) const;
 

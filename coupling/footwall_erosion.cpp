@@ -143,6 +143,14 @@ FootwallErosion::FootwallErosion(SurfaceResponse response, std::vector<double> f
     memory.add<double>("deposited", "m", 0.0);
 }
 
+void FootwallErosion::take_response(SurfaceResponse response, std::vector<double> forces,
+                                    Uplift uplift) {
+    assert(response.x == response_.x);
+    response_ = std::move(response);
+    forces_ = std::move(forces);
+    uplift_ = std::move(uplift);
+}
+
 void FootwallErosion::begin(State& state) {
     footwall_load(state, name(), forces_.size() / response_.x.size());
 }
@@ -191,7 +199,11 @@ FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, 
         auto event = std::make_unique<FootwallErosion>(surface, solution.forces,
                                                        surface_uplift(surface, solution),
                                                        parameters, gravity, calendar);
-        const FootwallErosion& erosion = *event;
+        FootwallErosion& erosion = *event;
+        const auto take_solution = [knots, &erosion](const LoadSolution& anew) {
+            const SurfaceResponse now(knots, anew.interface, anew.sums, anew.work);
+            erosion.take_response(now, anew.forces, surface_uplift(now, anew));
+        };
         return LoadingEvent{.event = std::move(event),
                             .amounts = [&erosion](const State&) { return erosion.pressure(); },
                             .load_elsewhere = [&erosion](const State&) { return erosion.load(); },
@@ -201,7 +213,8 @@ FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, 
                                     const auto [eroded, deposited] = erosion.areas();
                                     return NamedValues{{footwall_eroded_name, eroded},
                                                        {footwall_deposited_name, deposited}};
-                                }};
+                                },
+                            .take_solution = take_solution};
     };
     return {surface_loads(knots), make_event};
 }

@@ -104,6 +104,9 @@ public:
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
+    /// Takes another response of the same knots.
+    void take_response(SurfaceResponse response, std::vector<double> forces, Uplift uplift);
+
     std::vector<double> pressure() const; ///< of the cover as it is, on the knots, Pa
     fem::Load load() const;               ///< the pressure as a load
 

@@ -1,5 +1,8 @@
 #include "coupling/footwall_loads.hpp"
 
+#include "coupling/base_memory.hpp"
+#include "coupling/interface_loads.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -60,26 +63,64 @@ std::vector<double> superpose(std::span<const double> amounts, std::span<const d
     return sum;
 }
 
+namespace {
+
+/// Stress that relaxes in the footwall, as an effect with unit loads sees it: how much of each of
+/// them its work on that displacement is.
+/// @param first  of the effect's unit loads among those of all
+OtherLoad stress_left(std::size_t first, std::size_t count) {
+    OtherLoad stress{.work = std::vector<double>(count * count, 0.0),
+                     .amounts =
+                         [first, count](const State& state) {
+                             const std::span<const double> all = creep_work(state);
+                             std::vector<double> work(count, 0.0);
+                             if (!all.empty())
+                                 std::ranges::copy(all.subspan(first, count), work.begin());
+                             return work;
+                         },
+                     .cover = [](double) { return 0.0; }};
+    for (std::size_t k = 0; k < count; ++k)
+        stress.work[k * count + k] = 1.0;
+    return stress;
+}
+
+} // namespace
+
 FootwallLoads::FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
                              std::span<const FootwallLoad> effects,
                              std::vector<std::unique_ptr<Event>>& events)
-    : effects_(std::make_shared<std::vector<LoadingEvent>>()) {
-    std::vector<std::vector<fem::Load>> unit_loads;
+    : base_(&base), effects_(std::make_shared<std::vector<LoadingEvent>>()) {
     for (const FootwallLoad& effect : effects)
-        unit_loads.push_back(effect.unit_loads);
-    std::vector<LoadResponse> responses =
-        solve_unit_loads(footwall, unit_loads, base.interface().unknowns());
+        unit_loads_.push_back(effect.unit_loads);
+    const std::vector<LoadSolution> all = solutions(footwall);
     for (std::size_t e = 0; e < effects.size(); ++e) {
+        effects_->push_back(effects[e].make_event(all[e]));
+        assert(unit_loads_[e].empty() || effects_->back().amounts);
+    }
+    for (LoadingEvent& effect : *effects_) {
+        names_.push_back(effect.event->name());
+        events.push_back(std::move(effect.event));
+    }
+}
+
+std::vector<LoadSolution> FootwallLoads::solutions(fem::Footwall& footwall) {
+    std::vector<LoadResponse> responses =
+        solve_unit_loads(footwall, unit_loads_, base_->interface().unknowns());
+    std::vector<LoadSolution> result;
+    std::size_t first = 0;
+    forces_.clear();
+    for (std::size_t e = 0; e < responses.size(); ++e) {
         LoadResponse& response = responses[e];
-        LoadSolution solution{base,
+        LoadSolution solution{*base_,
                               std::move(response.interface),
                               {},
                               std::move(response.sums),
                               std::move(response.work[e]),
                               {}};
-        solution.forces = equivalent_forces(base, solution.interface);
-        for (std::size_t other = 0; other < effects.size(); ++other)
-            if (other != e && !unit_loads[other].empty())
+        solution.forces = equivalent_forces(*base_, solution.interface);
+        forces_.push_back(solution.forces);
+        for (std::size_t other = 0; other < responses.size(); ++other)
+            if (other != e && !unit_loads_[other].empty())
                 solution.others.push_back(
                     {.work = std::move(response.work[other]),
                      .amounts = [all = effects_, other](
@@ -89,11 +130,35 @@ FootwallLoads::FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
                              const LoadingEvent& effect = (*all)[other];
                              return effect.cover ? effect.cover(x) : 0.0;
                          }});
-        effects_->push_back(effects[e].make_event(solution));
-        assert(unit_loads[e].empty() || effects_->back().amounts);
+        if (!footwall.stress_points().empty() && !unit_loads_[e].empty())
+            solution.others.push_back(stress_left(first, unit_loads_[e].size()));
+        first += unit_loads_[e].size();
+        result.push_back(std::move(solution));
     }
-    for (LoadingEvent& effect : *effects_)
-        events.push_back(std::move(effect.event));
+    return result;
+}
+
+void FootwallLoads::solve_anew(fem::Footwall& footwall) {
+    const std::vector<LoadSolution> all = solutions(footwall);
+    for (std::size_t e = 0; e < all.size(); ++e)
+        if ((*effects_)[e].take_solution)
+            (*effects_)[e].take_solution(all[e]);
+}
+
+void FootwallLoads::put(State& state) const {
+    for (std::size_t e = 0; e < effects_->size(); ++e) {
+        if (unit_loads_[e].empty())
+            continue;
+        const std::vector<double> now = superpose((*effects_)[e].amounts(state), forces_[e]);
+        std::ranges::copy(now, footwall_load(state, names_[e], now.size()).begin());
+    }
+}
+
+std::size_t FootwallLoads::unit_loads() const {
+    std::size_t count = 0;
+    for (const std::vector<fem::Load>& effect : unit_loads_)
+        count += effect.size();
+    return count;
 }
 
 void FootwallLoads::prepare(State& state) const {
@@ -108,6 +173,7 @@ fem::Load FootwallLoads::elsewhere(const State& state) const {
         if (effect.load_elsewhere)
             loads.push_back(effect.load_elsewhere(state));
     fem::Load sum;
+    sum.stress = creep_stress(state);
     for (const fem::Load& load : loads)
         sum.jumps.insert(sum.jumps.end(), load.jumps.begin(), load.jumps.end());
     if (!loads.empty())
@@ -129,6 +195,14 @@ NamedValues FootwallLoads::measures(const State& state) const {
         if (effect.measures)
             std::ranges::move(effect.measures(state), std::back_inserter(columns));
     return columns;
+}
+
+void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const FootwallLoads& loads,
+                     const State& state) {
+    fem::Load load = loads.elsewhere(state);
+    load.interface = base.interface_forces(state);
+    load.interface.resize(2 * footwall.interface().size(), 0.0);
+    footwall.solve(load);
 }
 
 } // namespace listric::coupling

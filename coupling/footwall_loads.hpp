@@ -68,6 +68,9 @@ struct LoadingEvent {
     /// none: nothing.
     std::function<double(double x)> cover = {};
     std::function<NamedValues(const dem::State&)> measures = {};
+    /// Takes the solution for the unit loads on a footwall of another stiffness; none: there are
+    /// no unit loads.
+    std::function<void(const LoadSolution&)> take_solution = {};
     /// Gives discs what they settle on the base with; none: nothing.
     std::function<void(dem::State&)> prepare = {};
 };
@@ -91,14 +94,34 @@ public:
     /// Before the discs settle on the base, which has its nodes.
     void prepare(dem::State& state) const;
 
+    /// Solves for the unit loads again, on a footwall of another stiffness. Throws
+    /// fem::FootwallError.
+    void solve_anew(fem::Footwall& footwall);
+
+    /// Puts what acts of the unit loads, by their present solution.
+    void put(dem::State& state) const;
+
+    std::size_t unit_loads() const; ///< number of them
+
     /// Load on the footwall elsewhere than on the interface.
     fem::Load elsewhere(const dem::State& state) const;
 
     NamedValues measures(const dem::State& state) const; ///< of all effects
 
 private:
+    std::vector<LoadSolution> solutions(fem::Footwall& footwall);
+
+    const ElasticBase* base_;
+    std::vector<std::vector<fem::Load>> unit_loads_; ///< by number of the effect
+    std::vector<std::vector<double>> forces_;        ///< equivalent to them, by rows
+    std::vector<std::string> names_;                 ///< of the events
     /// By number of the effect; events find each other's amounts here.
     std::shared_ptr<std::vector<LoadingEvent>> effects_;
 };
+
+/// Solves for the field that displaces the interface as it is, under the loads elsewhere. Throws
+/// fem::FootwallError.
+void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const FootwallLoads& loads,
+                     const dem::State& state);
 
 } // namespace listric::coupling

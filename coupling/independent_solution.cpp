@@ -105,7 +105,8 @@ double relative_difference(std::span<const double> a, std::span<const double> b)
 }
 
 IndependentSolution solve_independently(fem::FootwallRequest request, const Interface& interface,
-                                        std::span<const double> forces, const fem::Load& other) {
+                                        std::span<const double> forces, const fem::Load& other,
+                                        std::span<const fem::StressPoint> relaxing) {
     if (request.mesh_file.empty())
         request.cell_size *= 0.5;
     else
@@ -117,6 +118,7 @@ IndependentSolution solve_independently(fem::FootwallRequest request, const Inte
     const Trace trace(interface.x, interface.y, still, still, interface.degree);
     fem::Load load;
     load.jumps = other.jumps;
+    load.stress = fem::carried_over(relaxing, other.stress, footwall->stress_points());
     load.traction = [&](fem::Vector place, fem::Vector normal, fem::Boundary boundary) {
         fem::Vector t;
         if (other.traction)

@@ -26,9 +26,10 @@ std::vector<double> tractions(const Interface& interface, std::span<const double
 /// @param request  of the run's footwall
 /// @param forces   on the interface's unknowns, N
 /// @param other    loads elsewhere
+/// @param relaxing where the run's footwall relaxes, by which other.stress is
 /// Throws fem::FootwallError.
 IndependentSolution solve_independently(fem::FootwallRequest request, const Interface& interface,
-                                        std::span<const double> forces,
-                                        const fem::Load& other = {});
+                                        std::span<const double> forces, const fem::Load& other = {},
+                                        std::span<const fem::StressPoint> relaxing = {});
 
 } // namespace listric::coupling

@@ -96,7 +96,7 @@ FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& param
     const auto make_event = [=](const LoadSolution& solution) {
         auto event =
             std::make_unique<LowerCrustThinning>(solution.forces, greatest, least, extension_rate);
-        const LowerCrustThinning& thinning = *event;
+        LowerCrustThinning& thinning = *event;
         return LoadingEvent{
             .event = std::move(event),
             .amounts = [&thinning](const State& state) { return thinning.amounts(state); },
@@ -109,7 +109,9 @@ FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& param
                     return NamedValues{
                         {lower_crust_thinning_name,
                          lower_crust_thinning(parameters, thinning.extension(state))}};
-                }};
+                },
+            .take_solution =
+                [&thinning](const LoadSolution& anew) { thinning.take_forces(anew.forces); }};
     };
     return {lower_crust_loads(parameters, contrast, greatest, least), make_event};
 }

@@ -4,6 +4,7 @@
 #include "dem/event.hpp"
 #include "fem/footwall.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace listric::coupling {
@@ -53,6 +54,8 @@ public:
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
+
+    void take_forces(std::vector<double> forces) { forces_ = std::move(forces); }
 
     /// Extension whose load acts now, m.
     double extension(const dem::State& state) const;

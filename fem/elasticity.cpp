@@ -82,6 +82,17 @@ void add_forces(const Values& values, const std::vector<unsigned>& component, Fo
     }
 }
 
+/// Takes a cell's integral of stress : eps(v) from its forces, by quadrature point, xx, yy, xy.
+void take_stress(const dealii::FEValues<2>& values, unsigned q, const double* stress,
+                 const std::vector<unsigned>& component, dealii::Vector<double>& local) {
+    const double rows[2][2] = {{stress[0], stress[2]}, {stress[2], stress[1]}};
+    for (unsigned i = 0; i < component.size(); ++i) {
+        const Tensor<1, 2> g = values.shape_grad(i, q);
+        const double* row = rows[component[i]];
+        local(i) -= values.JxW(q) * (row[0] * g[0] + row[1] * g[1]);
+    }
+}
+
 /// Stands in for deal.II's start, where MPI and PETSc have already been started.
 bool join_those_who_started() {
     int started = 0;
@@ -147,6 +158,40 @@ void ElasticFootwall::set_up() {
     stiffness_.reinit(owned_, owned_, pattern, processes_);
     measure_mesh();
     find_interface();
+    find_stress_points();
+    assemble();
+}
+
+void ElasticFootwall::find_stress_points() {
+    stress_points_.clear();
+    relaxing_.clear();
+    if (std::ranges::none_of(request_.layers,
+                             [](const Layer& layer) { return layer.viscosity.has_value(); }))
+        return;
+    if (dealii::Utilities::MPI::n_mpi_processes(processes_) > 1)
+        throw FootwallError("layers: rock with a viscosity needs one process for the footwall");
+    relaxing_.resize(mesh_.cells->n_active_cells());
+    const dealii::QGauss<2> points = quadrature();
+    dealii::FEValues<2> values(mapping_, element_, points, dealii::update_quadrature_points);
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        for (unsigned q = 0; q < points.size(); ++q) {
+            const Vector place = plain(values.quadrature_point(q));
+            const double time = material_.at_once(place).relaxation_time;
+            if (!std::isfinite(time))
+                continue;
+            relaxing_[cell->active_cell_index()].push_back(q);
+            stress_points_.push_back({place, time, cell->active_cell_index()});
+        }
+    });
+}
+
+void ElasticFootwall::take_step(double seconds) {
+    material_.take_step(seconds);
+    if (solver_)
+        must(KSPDestroy(&solver_), "cannot drop the old factors");
+    keeps_interface_ = false;
+    displacement_.clear();
     assemble();
 }
 
@@ -373,8 +418,31 @@ std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) con
                dealii::Utilities::MPI::sum(total.y, processes_)};
     if (!load.interface.empty())
         add_interface_forces(load.interface, forces, sum);
+    if (!load.stress.empty())
+        add_stress(load.stress, forces);
     forces.compress(dealii::VectorOperation::add);
     return {std::move(forces), sum};
+}
+
+/// Forces that balance a stress; their sum is 0.
+void ElasticFootwall::add_stress(const std::vector<double>& stress, GlobalVector& forces) const {
+    if (stress.size() != 3 * stress_points_.size())
+        throw FootwallError("the load has stress at " + std::to_string(stress.size() / 3) +
+                            " points, the footwall relaxes at " +
+                            std::to_string(stress_points_.size()));
+    dealii::FEValues<2> values(mapping_, element_, quadrature(),
+                               dealii::update_gradients | dealii::update_JxW_values);
+    const std::vector<unsigned> component = components();
+    dealii::Vector<double> local(element_.n_dofs_per_cell());
+    std::vector<Index> indices(element_.n_dofs_per_cell());
+    for_each_relaxing_cell([&](const auto& cell, std::size_t first, const auto& points) {
+        values.reinit(cell);
+        local = 0.0;
+        for (std::size_t k = 0; k < points.size(); ++k)
+            take_stress(values, points[k], &stress[3 * (first + k)], component, local);
+        cell->get_dof_indices(indices);
+        constraints_.distribute_local_to_global(local, indices, forces);
+    });
 }
 
 void ElasticFootwall::add_interface_forces(const std::vector<double>& load, GlobalVector& forces,
@@ -423,6 +491,7 @@ void ElasticFootwall::solve(const Load& load) {
     const GlobalVector solution = displacement_under(forces);
     displacement_.reinit(owned_, relevant_, processes_);
     displacement_ = solution;
+    stress_ = load.stress;
 }
 
 Responses ElasticFootwall::responses(std::span<const Load> loads) {
@@ -440,6 +509,8 @@ Responses ElasticFootwall::responses(std::span<const Load> loads) {
         for (const GlobalVector& other : forces)
             result.work.push_back(other * solution);
     }
+    if (!stress_points_.empty())
+        kept_loads_ = std::move(forces);
     return result;
 }
 

@@ -66,6 +66,10 @@ public:
     FieldError error(const ExactField& exact) const override;
     Vector reaction() const override;
     Guard guard(double rock_weight) const override;
+    const std::vector<StressPoint>& stress_points() const override { return stress_points_; }
+    void take_step(double seconds) override;
+    std::vector<double> stress_left(double seconds) const override;
+    std::vector<double> work() const override;
     void refine(double share_of_cells) override;
     void write(const std::string& folder, const std::string& name) const override;
 
@@ -116,7 +120,7 @@ private:
                                                         : Side::free;
         if (side != Side::elastic)
             return 0.0;
-        const Rock rock = material_.at(place);
+        const Rock rock = material_.at_once(place);
         return (rock.lambda + 2.0 * rock.mu) / (request_.right - request_.left);
     }
 
@@ -125,6 +129,7 @@ private:
     struct FaceOnWall;
     std::vector<FaceOnWall> own_faces_on_wall() const;
     void find_interface();
+    void find_stress_points();
     void assemble();
     void add_springs(const dealii::FEFaceValues<2>& values, Boundary boundary,
                      const std::vector<unsigned>& component,
@@ -136,6 +141,9 @@ private:
     Mat solver_factors() const;
     std::vector<unsigned> components() const;
     std::pair<GlobalVector, Vector> forces_of(const Load& load) const;
+    void add_stress(const std::vector<double>& stress, GlobalVector& forces) const;
+    std::vector<double> strain_deviators() const; ///< by stress_points(), xx, yy, xy
+    std::vector<double> stress_deviators() const;
     void add_interface_forces(const std::vector<double>& load, GlobalVector& forces,
                               Vector& sum) const;
     GlobalVector displacement_under(const GlobalVector& forces);
@@ -145,6 +153,18 @@ private:
     void require_solution() const {
         if (displacement_.size() == 0)
             throw FootwallError("the footwall has no solution yet: solve first");
+    }
+    /// Cells with stress points, the first of these and their quadrature points.
+    template <class Visit> void for_each_relaxing_cell(Visit&& visit) const {
+        if (stress_points_.empty())
+            return;
+        std::size_t first = 0;
+        for_each_own_cell([&](const auto& cell) {
+            const std::vector<unsigned>& points = relaxing_[cell->active_cell_index()];
+            if (!points.empty())
+                visit(cell, first, points);
+            first += points.size();
+        });
     }
     template <class Visit> void for_each_own_cell(Visit&& visit) const {
         for (const auto& cell : unknowns_.active_cell_iterators())
@@ -168,6 +188,10 @@ private:
     std::vector<InterfaceNode> nodes_;
     std::vector<std::array<Index, 2>> node_unknowns_;
     std::vector<InterfaceFace> faces_;
+    std::vector<StressPoint> stress_points_;
+    std::vector<std::vector<unsigned>> relaxing_; ///< by cell: its quadrature points that relax
+    std::vector<double> stress_;                  ///< of the last load
+    std::vector<GlobalVector> kept_loads_;        ///< of the last responses(), where rock relaxes
     Vector total_load_;
     int iterations_ = 0;
     bool refined_ = false;

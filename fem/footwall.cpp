@@ -78,6 +78,8 @@ void check_layers(const FootwallRequest& r) {
                    ", allowed: above -1, below 0.5");
         if (!(layer.density > 0.0))
             refuse(name + ": density " + number(layer.density) + " kg/m3, allowed: above 0");
+        if (layer.viscosity && !(*layer.viscosity > 0.0 && std::isfinite(*layer.viscosity)))
+            refuse(name + ": viscosity " + number(*layer.viscosity) + " Pa s, allowed: above 0");
         if (k > 0 && !(layer.top_depth > r.layers[k - 1].top_depth))
             refuse(name + " overlaps the one before: it begins at a depth of " +
                    number(layer.top_depth) + " m, allowed: above " +
@@ -128,6 +130,8 @@ void check(const FootwallRequest& r) {
     if (r.degree != 1 && r.degree != 2)
         refuse("elements of degree " + std::to_string(r.degree) + ", allowed: 1 and 2");
     check_layers(r);
+    if (!(r.step >= 0.0) || !std::isfinite(r.step))
+        refuse("the step of relaxation must be at least 0");
     if (r.elastic_thickness < 0.0 || !(r.relaxation >= 1.0) || r.skin_thickness < 0.0)
         refuse("elastic and skin thickness must be at least 0, the relaxation at least 1");
     check_supports(r);

@@ -4,6 +4,7 @@
 // knows no discs and names no finite-element library, which lives in a plug-in that is loaded when
 // a scene asks for an elastic base.
 
+#include "fem/relaxation.hpp"
 #include "fem/request.hpp"
 
 #include <array>
@@ -40,6 +41,9 @@ struct Load {
     /// x where the traction jumps, m: straight faces are integrated in parts there, so that the
     /// load keeps its sum and its moment on any mesh.
     std::vector<double> jumps;
+    /// Stress that rock has beside that of its strain, by Footwall::stress_points(), Pa: what is
+    /// left from before the step.
+    std::vector<double> stress;
 };
 
 /// Responses of the footwall to m loads, each alone.
@@ -121,6 +125,19 @@ public:
 
     /// Solves for the full field, which the calls below then describe.
     virtual void solve(const Load& load) = 0;
+
+    /// Where rock relaxes; nowhere: it has no viscosity. One process only.
+    virtual const std::vector<StressPoint>& stress_points() const = 0;
+
+    /// From now on solutions are those of a step's end, s, over which rock relaxes as Maxwell says;
+    /// 0: it answers at once. Compliance and solution are gone.
+    virtual void take_step(double seconds) = 0;
+
+    /// Load::stress for a step that begins with the last solution, by stress_points(), Pa.
+    virtual std::vector<double> stress_left(double seconds) const = 0;
+
+    /// Work of the loads of the last responses() on the last solution, J/m.
+    virtual std::vector<double> work() const = 0;
 
     /// Solves for loads that are to be superposed. Forces on the interface displace a load's
     /// boundary by the transpose: work = row of `interface` times forces. Leaves the last solution.

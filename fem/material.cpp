@@ -1,5 +1,7 @@
 #include "fem/material.hpp"
 
+#include "fem/relaxation.hpp"
+
 #include <cassert>
 #include <utility>
 
@@ -7,12 +9,23 @@ namespace listric::fem {
 
 ElasticRock::ElasticRock(const FootwallRequest& request, Curve detachment)
     : layers_(request.layers), elastic_thickness_(request.elastic_thickness),
-      relaxation_(request.relaxation), skin_thickness_(request.skin_thickness),
+      relaxation_(request.relaxation), skin_thickness_(request.skin_thickness), step_(request.step),
       detachment_(std::move(detachment)) {
     assert(!layers_.empty() && relaxation_ >= 1.0);
 }
 
-Rock ElasticRock::at(Vector place) const {
+namespace {
+
+/// Gives rock another shear modulus; that of bulk stays.
+void stiffen(Rock& rock, double factor) {
+    const double bulk = rock.lambda + 2.0 / 3.0 * rock.mu;
+    rock.mu *= factor;
+    rock.lambda = bulk - 2.0 / 3.0 * rock.mu;
+}
+
+} // namespace
+
+Rock ElasticRock::at_once(Vector place) const {
     const Layer* layer = &layers_.front();
     for (const Layer& below : layers_)
         if (-place.y >= below.top_depth)
@@ -20,13 +33,27 @@ Rock ElasticRock::at(Vector place) const {
     const double e = layer->young_modulus, nu = layer->poisson_ratio;
     const double bulk = e / (3.0 * (1.0 - 2.0 * nu));
     Rock rock{0.0, e / (2.0 * (1.0 + nu)), layer->density, false};
-    if (elastic_thickness_ > 0.0 && -place.y > elastic_thickness_ &&
-        (skin_thickness_ <= 0.0 || detachment_.empty() ||
-         detachment_.distance(place) > skin_thickness_)) {
-        rock.mu /= relaxation_;
-        rock.relaxed = true;
+    const bool is_below = elastic_thickness_ > 0.0 && -place.y > elastic_thickness_;
+    if ((is_below || layer->viscosity) && (skin_thickness_ <= 0.0 || detachment_.empty() ||
+                                           detachment_.distance(place) > skin_thickness_)) {
+        if (is_below)
+            rock.mu /= relaxation_;
+        else
+            rock.relaxation_time = *layer->viscosity / rock.mu;
+        rock.relaxed = is_below;
     }
     rock.lambda = bulk - 2.0 / 3.0 * rock.mu;
+    return rock;
+}
+
+Rock ElasticRock::at(Vector place) const {
+    Rock rock = at_once(place);
+    const Maxwell over_step = maxwell(step_, rock.relaxation_time);
+    if (over_step.share == 1.0)
+        return rock;
+    stiffen(rock, over_step.share);
+    rock.decay = over_step.decay;
+    rock.relaxed = over_step.share < 0.5;
     return rock;
 }
 

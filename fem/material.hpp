@@ -2,24 +2,32 @@
 
 #include "fem/curve.hpp"
 
+#include <limits>
+
 namespace listric::fem {
 
 /// Isotropic rock at a point.
 struct Rock {
-    double lambda = 0.0, mu = 0.0; ///< Lame's constants, Pa
+    double lambda = 0.0, mu = 0.0; ///< Lame's constants, of what happens in a step, Pa
     double density = 0.0;          ///< kg/m^3
-    bool relaxed = false;
+    bool relaxed = false;          ///< carries little of its stress, if any, beyond a step
+    double relaxation_time = std::numeric_limits<double>::infinity(); ///< s
+    double decay = 1.0; ///< of the stress's deviator in a step: see Maxwell
 };
 
-/// Where which rock is: layers by depth, relaxed below the elastic thickness except in the skin.
+/// Where which rock is: layers by depth, relaxed below the elastic thickness, with time where they
+/// have a viscosity; all of it but the skin.
 class ElasticRock {
 public:
     ElasticRock(const FootwallRequest& request, Curve detachment);
-    Rock at(Vector place) const;
+
+    Rock at(Vector place) const;      ///< over the step
+    Rock at_once(Vector place) const; ///< as it answers at once
+    void take_step(double seconds) { step_ = seconds; }
 
 private:
     std::vector<Layer> layers_;
-    double elastic_thickness_, relaxation_, skin_thickness_;
+    double elastic_thickness_, relaxation_, skin_thickness_, step_;
     Curve detachment_;
 };
 

@@ -5,6 +5,7 @@
 #include "fem/vector.hpp"
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,10 +22,11 @@ struct Piece {
 
 /// Rock from a depth down to the next layer's.
 struct Layer {
-    double top_depth = 0.0;      ///< m below y = 0
-    double young_modulus = 70e9; ///< Pa
-    double poisson_ratio = 0.25; ///< below 0.5
-    double density = 2700.0;     ///< kg/m^3, for output; springs have their own
+    double top_depth = 0.0;               ///< m below y = 0
+    double young_modulus = 70e9;          ///< Pa
+    double poisson_ratio = 0.25;          ///< below 0.5
+    double density = 2700.0;              ///< kg/m^3, for output; springs have their own
+    std::optional<double> viscosity = {}; ///< with which its shear relaxes, Pa s; none: never
 };
 
 enum class Boundary { left = 1, base = 2, right = 3, surface = 4, detachment = 5 };
@@ -51,8 +53,9 @@ struct FootwallRequest {
     /// `relaxation`: a crust that is no longer rigid but still incompressible. 0: nowhere.
     double elastic_thickness = 0.0;
     double relaxation = 100.0;
-    /// Rock within this distance of the detachment, m, is never relaxed.
+    /// Rock within this distance of the detachment, m, is never relaxed and has no viscosity.
     double skin_thickness = 0.0;
+    double step = 0.0; ///< of relaxation by viscosity, s: see Footwall::take_step()
 
     /// Vertical springs at the density contrasts: Pa per m of vertical displacement, on the
     /// horizontal projection of the boundary. rho_c g above, (rho_m - rho_c) g at the base. On the

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <unistd.h>
 
@@ -33,10 +34,35 @@ Stress stress_of(const Rock& rock, const Tensor<2, 2>& g) {
             rock.mu * (g[0][1] + g[1][0])};
 }
 
+/// Stress of a solution anywhere. Where rock relaxes, its deviator is the nearest stress point's:
+/// it is the small difference of what strain would make and what has relaxed.
+class StressField {
+public:
+    /// @param deviators  by stress point
+    StressField(const std::vector<StressPoint>& points, std::vector<double> deviators)
+        : deviators_(std::move(deviators)) {
+        if (!points.empty())
+            nearest_.emplace(points);
+    }
+
+    Stress at(const Rock& rock, Vector place, const Tensor<2, 2>& gradient) const {
+        if (!std::isfinite(rock.relaxation_time) || !nearest_)
+            return stress_of(rock, gradient);
+        const double* deviator = &deviators_[3 * (*nearest_)(place)];
+        const double mean = (rock.lambda + 2.0 / 3.0 * rock.mu) * (gradient[0][0] + gradient[1][1]);
+        return {mean + deviator[0], mean + deviator[1], deviator[2]};
+    }
+
+private:
+    std::optional<NearestPoint> nearest_;
+    std::vector<double> deviators_;
+};
+
 /// Stress, elastic moduli and density at the points of output.
 class StressOutput : public dealii::DataPostprocessor<2> {
 public:
-    explicit StressOutput(const ElasticRock& material) : material_(material) {}
+    StressOutput(const ElasticRock& material, const StressField& field)
+        : material_(material), field_(field) {}
 
     std::vector<std::string> get_names() const override {
         return {"stress_xx_pa",     "stress_yy_pa",  "stress_xy_pa",
@@ -56,12 +82,12 @@ public:
         Point<2> middle;
         for (const auto& p : in.evaluation_points)
             middle += p / static_cast<double>(in.evaluation_points.size());
-        const Rock rock = material_.at(plain(middle));
+        const Rock rock = material_.at_once(plain(middle));
         for (std::size_t k = 0; k < out.size(); ++k) {
             Tensor<2, 2> gradient;
             for (unsigned component = 0; component < 2; ++component)
                 gradient[component] = in.solution_gradients[k][component];
-            const Stress stress = stress_of(rock, gradient);
+            const Stress stress = field_.at(rock, plain(in.evaluation_points[k]), gradient);
             out[k](0) = stress.xx;
             out[k](1) = stress.yy;
             out[k](2) = stress.xy;
@@ -73,9 +99,67 @@ public:
 
 private:
     const ElasticRock& material_;
+    const StressField& field_;
 };
 
 } // namespace
+
+std::vector<double> ElasticFootwall::strain_deviators() const {
+    require_solution();
+    dealii::FEValues<2> values(mapping_, element_, quadrature(), dealii::update_gradients);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<2, 2>> slopes(values.n_quadrature_points);
+    std::vector<double> result;
+    result.reserve(3 * stress_points_.size());
+    for_each_relaxing_cell([&](const auto& cell, std::size_t, const auto& points) {
+        values.reinit(cell);
+        values[u].get_function_gradients(displacement_, slopes);
+        for (const unsigned q : points) {
+            const double mean = (slopes[q][0][0] + slopes[q][1][1]) / 3.0; // zz is 0
+            result.push_back(slopes[q][0][0] - mean);
+            result.push_back(slopes[q][1][1] - mean);
+            result.push_back(0.5 * (slopes[q][0][1] + slopes[q][1][0]));
+        }
+    });
+    return result;
+}
+
+std::vector<double> ElasticFootwall::stress_deviators() const {
+    std::vector<double> result = strain_deviators();
+    for (std::size_t k = 0; k < result.size(); ++k)
+        result[k] = 2.0 * material_.at(stress_points_[k / 3].place).mu * result[k] +
+                    (stress_.empty() ? 0.0 : stress_[k]);
+    return result;
+}
+
+/// Of the stress s and the strain e that the step begins with: decay s - 2 mu e, so that the strain
+/// of its end makes the rest.
+std::vector<double> ElasticFootwall::stress_left(double seconds) const {
+    ElasticRock next = material_;
+    next.take_step(seconds);
+    const std::vector<double> strain = strain_deviators();
+    std::vector<double> result;
+    result.reserve(strain.size());
+    for (std::size_t k = 0; k < stress_points_.size(); ++k) {
+        const Rock now = material_.at(stress_points_[k].place);
+        const Rock then = next.at(stress_points_[k].place);
+        for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) {
+            const double stress = (stress_.empty() ? 0.0 : stress_[c]) + 2.0 * now.mu * strain[c];
+            result.push_back(then.decay * stress - 2.0 * then.mu * strain[c]);
+        }
+    }
+    return result;
+}
+
+std::vector<double> ElasticFootwall::work() const {
+    require_solution();
+    GlobalVector solution(owned_, processes_);
+    solution = displacement_;
+    std::vector<double> work;
+    for (const GlobalVector& load : kept_loads_)
+        work.push_back(load * solution);
+    return work;
+}
 
 Field ElasticFootwall::field() const {
     require_solution();
@@ -166,6 +250,7 @@ std::vector<StressPatch> ElasticFootwall::stress() const {
     const dealii::FEValuesExtractors::Vector u(0);
     std::vector<Tensor<1, 2>> moved(places.size());
     std::vector<Tensor<2, 2>> slopes(places.size());
+    const StressField field(stress_points_, stress_deviators());
     std::vector<StressPatch> result;
     for_each_own_cell([&](const auto& cell) {
         values.reinit(cell);
@@ -179,12 +264,14 @@ std::vector<StressPatch> ElasticFootwall::stress() const {
                 patch.corner[k] = plain(values.quadrature_point(around[k]));
                 patch.displacement[k] = {moved[around[k]][0], moved[around[k]][1]};
             }
-            const Rock rock = material_.at(plain(values.quadrature_point(9 + quarter)));
-            const Stress stress = stress_of(rock, slopes[9 + quarter]);
+            const Vector middle = plain(values.quadrature_point(9 + quarter));
+            const Rock rock = material_.at(middle);
+            const Stress stress = field.at(rock, middle, slopes[9 + quarter]);
             patch.xx = stress.xx;
             patch.yy = stress.yy;
             patch.xy = stress.xy;
-            patch.is_relaxed = rock.relaxed && request_.relaxation > 1.0;
+            patch.is_relaxed =
+                rock.relaxed && (request_.relaxation > 1.0 || std::isfinite(rock.relaxation_time));
             result.push_back(patch);
         }
     });
@@ -227,6 +314,7 @@ Guard ElasticFootwall::guard(double rock_weight) const {
     dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
     const dealii::FEValuesExtractors::Vector u(0);
     std::vector<Tensor<2, 2>> slopes(points.size());
+    std::size_t point = 0; // of those that relax
     Guard guard;
     for_each_own_cell([&](const auto& cell) {
         values.reinit(cell);
@@ -242,8 +330,17 @@ Guard ElasticFootwall::guard(double rock_weight) const {
             double& most = rock.relaxed ? guard.relaxed_strain : guard.strong_strain;
             most = std::max(most, std::abs(centre) + radius);
             guard.rotation = std::max(guard.rotation, 0.5 * std::abs(slope[1][0] - slope[0][1]));
-            const double pressure = -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
-            if (!rock.relaxed && beyond_byerlee(pressure, 2.0 * rock.mu * radius))
+            double pressure = -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
+            double shear = 2.0 * rock.mu * radius;
+            if (std::isfinite(rock.relaxation_time) && !stress_.empty()) {
+                const double* left = &stress_[3 * point];
+                pressure -= 0.5 * (left[0] + left[1]);
+                shear =
+                    std::hypot(rock.mu * (slope[0][0] - slope[1][1]) + 0.5 * (left[0] - left[1]),
+                               rock.mu * (slope[0][1] + slope[1][0]) + left[2]);
+            }
+            point += std::isfinite(rock.relaxation_time);
+            if (!rock.relaxed && beyond_byerlee(pressure, shear))
                 guard.beyond_byerlee += values.JxW(q);
         }
     });
@@ -255,7 +352,8 @@ Guard ElasticFootwall::guard(double rock_weight) const {
 
 void ElasticFootwall::write(const std::string& folder, const std::string& name) const {
     require_solution();
-    const StressOutput stress(material_);
+    const StressField field(stress_points_, stress_deviators());
+    const StressOutput stress(material_, field);
     dealii::DataOut<2> out;
     out.attach_dof_handler(unknowns_);
     const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector(

@@ -60,8 +60,9 @@ public:
                         const dem::CyclePhysics& physics, const dem::Execution& execution,
                         const Progress& progress) const = 0;
 
-    /// Refuses a state that has come to rest on another base. Throws UsageError.
-    virtual void require_own(const dem::State&) const {}
+    /// Refuses a state that has come to rest on another base, else is the base of that state.
+    /// Throws UsageError.
+    virtual void require_own(const dem::State&) {}
 
     /// Ends a window of extension and begins the next.
     virtual BaseWindow end_window(dem::State&, const dem::RigidBase&) { return {}; }

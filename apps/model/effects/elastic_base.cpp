@@ -7,9 +7,12 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/words/spelling.hpp"
+#include "coupling/creep.hpp"
 #include "dem/numbers/elementary.hpp"
+#include "dem/numbers/units.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
+#include "fem/relaxation.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +33,8 @@ using B = BendingBase;
 std::vector<Parameter> plate_parameters() {
     return {
         {"elastic_thickness_m", at<&P::bending, &B::elastic_thickness>, "m", between(100, 2e5), "",
-         "effective elastic thickness Te: rock below it does not carry bending",
+         "effective elastic thickness Te: rock below it does not carry bending; its default beside "
+         "a viscosity of layers is depth_m, so that viscosity alone says what flows",
          "Raising it lowers the flank and widens its uplift; below 10 km the number is nominal, "
          "since a skin along the detachment bends, too.",
          between(4600, 77e3)},
@@ -90,8 +94,9 @@ std::vector<Parameter> footwall_parameters() {
          "Each one makes four times as many elements."},
         {"layers", at<&P::layers>, "", ranges::any, "",
          "rock by depth, the first from 0: {top_depth_m, young_modulus_pa, poisson_ratio, "
-         "density_kg_per_m3}; none: one layer of the values above",
-         "Make the plate stiffer where its rock is stiffer; Te cuts through them."},
+         "density_kg_per_m3, viscosity_pa_s}; none: one layer of the values above",
+         "Make the plate stiffer where its rock is stiffer, or let it relax; Te cuts through them: "
+         "rock below it is soft from the start, whatever its viscosity."},
         {"mesh_file", at<&P::mesh_file>, "", ranges::any, "",
          "Gmsh mesh (.msh, format 2.2) of the footwall, instead of elements made from the "
          "detachment",
@@ -117,7 +122,7 @@ std::vector<Parameter> coupling_parameters() {
          "5, 7 % at 20, of 2 km of extension.",
          between(1, 20)},
         {"modes", at<&P::modes>, "", between(0, 1e5), "",
-         "number of the base's softest modes that move; 0: all",
+         "number of the base's softest modes that move; 0: all, as beside a viscosity of layers",
          "Lowering it below 20 holds the base stiffer at short wavelengths.", between(20, 100)},
         {"mass_factor",
          at<&P::mass_factor>,
@@ -137,6 +142,38 @@ std::vector<Parameter> parameters() {
     std::ranges::move(footwall_parameters(), std::back_inserter(all));
     std::ranges::move(coupling_parameters(), std::back_inserter(all));
     return all;
+}
+
+/// A base that relaxes bends as its viscosities say, and moves in all its modes: those of one step
+/// of relaxation are not those of another.
+void complete(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {
+    P& base = *scene.find<P>();
+    if (!relaxes(base))
+        return;
+    if (!is_given("elastic_base.elastic_thickness_m"))
+        base.bending.elastic_thickness = base.depth;
+    if (!is_given("elastic_base.modes"))
+        base.modes = 0;
+    else if (base.modes != 0)
+        refuse("elastic_base.modes",
+               fmt::format("is {} beside a layer with viscosity_pa_s; a base that relaxes moves in "
+                           "all its modes: give 0 or leave it out",
+                           base.modes));
+}
+
+/// Rock below the elastic thickness is soft from the start: nothing is left to relax.
+void check_viscosity(const P& base, const Refuse& refuse) {
+    for (std::size_t k = 0; k < base.layers.size(); ++k) {
+        const fem::Layer& layer = base.layers[k];
+        if (layer.viscosity && layer.top_depth >= base.bending.elastic_thickness)
+            refuse(fmt::format("elastic_base.layers[{}].viscosity_pa_s", k),
+                   fmt::format("is {} in a layer from {} m on, below elastic_thickness_m = {}, "
+                               "where rock is soft from the start and has no stress to relax; "
+                               "raise elastic_thickness_m ({}, the base's depth, leaves all to "
+                               "viscosity), or leave out the viscosity",
+                               text(*layer.viscosity), text(layer.top_depth),
+                               text(base.bending.elastic_thickness), text(base.depth)));
+    }
 }
 
 /// The run's own elements, and those half as large with which it is checked at its end.
@@ -184,6 +221,7 @@ void check(const Scene& scene, const Refuse& refuse) {
             "elastic_base.elastic_thickness_m",
             fmt::format("is {}, allowed: at most depth_m = {}, where the base ends; raise depth_m",
                         text(base.bending.elastic_thickness), text(base.depth)));
+    check_viscosity(base, refuse);
     const dem::Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                              greatest_extension(scene)};
     if (!(base.bending.right > extent.reach()))
@@ -247,6 +285,60 @@ std::string explain_lacks(const Scene& scene, EffectList list) {
     return text;
 }
 
+/// "2.5 kyr"
+std::string years_text(double years) {
+    return years < 1e6 ? fmt::format("{:.3g} kyr", years / 1e3)
+                       : fmt::format("{:.3g} Myr", years / 1e6);
+}
+
+/// Number of the base's elements; 0 where they come from a file.
+double elements(const Scene& scene) {
+    const P& base = *listric::elastic_base(scene);
+    if (!base.mesh_file.empty())
+        return 0.0;
+    const fem::BlockMesh mesh = fem::make_blocks(make_footwall_request(scene, make_parts(scene)));
+    return static_cast<double>(mesh.cells.size()) *
+           dem::power(4.0, mesh.halvings + base.refinements);
+}
+
+/// Of a step of relaxation, measured with 1,088 elements; disc-steps likewise.
+constexpr double creep_seconds_of_an_element = 1.7e-5, creep_price_of_an_element = 640.0;
+
+/// How rock relaxes: its times over the steps of the run, memory and time.
+std::string explain_creep(const Scene& scene, const P& base) {
+    const dem::Calendar calendar = make_calendar(scene);
+    const dem::Schedule schedule = coupling::creep_schedule(calendar);
+    std::vector<double> steps = {schedule.years(1)};
+    for (const dem::SteppedPause& pause : calendar.pauses())
+        steps.push_back(schedule.years(schedule.nearest(pause.end())));
+    std::string text;
+    for (const fem::Layer& layer : base.layers) {
+        if (!layer.viscosity)
+            continue;
+        const double modulus = layer.young_modulus / (2.0 * (1.0 + layer.poisson_ratio));
+        const double time = *layer.viscosity / modulus;
+        text += fmt::format("  relaxes from {:g} km down ({:g} Pa s): by 63 % in {}",
+                            layer.top_depth / 1e3, *layer.viscosity,
+                            years_text(time / dem::seconds_per_year));
+        for (const double step : steps) {
+            const fem::Maxwell over = fem::maxwell(step * dem::seconds_per_year, time);
+            text += fmt::format(
+                "\n    a step of {}: {:.3g} of these times, {:.3g} of the shear modulus is left{}",
+                years_text(step), step * dem::seconds_per_year / time, over.share,
+                over.share > fem::least_share ? "" : ", the least that is kept");
+        }
+        text += '\n';
+    }
+    const auto times = schedule.nearest(dem::Travel(scene.extension.distance));
+    text += fmt::format("    {} steps", times);
+    if (const double count = elements(scene); count > 0.0)
+        text +=
+            fmt::format(" of about {:.0f} ms each, up to {:.1f} MB in a snapshot",
+                        count * creep_seconds_of_an_element * 1e3,
+                        count * (base.bending.degree + 1) * (base.bending.degree + 1) * 24.0 / 1e6);
+    return text + '\n';
+}
+
 /// Loads that the footwall feels, and those that it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *listric::elastic_base(scene);
@@ -270,16 +362,22 @@ std::string explain(const Scene& scene, EffectList list) {
                           base.bending.infill_density,
                           base.bending.crust_density - base.bending.infill_density)
             : std::string("no infill on the footwall's surface"));
+    if (relaxes(base))
+        text += explain_creep(scene, base);
     for (const EffectPart& part : scene.effects)
         if (part.effect->load_footwall && part.effect->explain)
             text += part.effect->explain(scene, list);
     return text + explain_lacks(scene, list);
 }
 
-/// Set-up, settling of the discs, and an answer every few cycles.
+/// Set-up, settling of the discs, an answer every few cycles, and steps of relaxation.
 double price(const Scene& scene, const Workload& work) {
-    return 5e7 + 1.2e4 * work.at_start +
-           1350.0 * work.cycles / listric::elastic_base(scene)->update_interval;
+    const P& base = *listric::elastic_base(scene);
+    double price = 5e7 + 1.2e4 * work.at_start + 1350.0 * work.cycles / base.update_interval;
+    if (relaxes(base))
+        price += creep_price_of_an_element * elements(scene) *
+                 work.applications(coupling::creep_schedule(work.calendar).interval);
+    return price;
 }
 
 /// The plug-in, and factors of the base and of the finer one that it is checked with: measured 223,
@@ -290,9 +388,7 @@ double memory(const Scene& scene) {
     if (!base.mesh_file.empty())
         return plug_in;
     const fem::FootwallRequest request = make_footwall_request(scene, make_parts(scene));
-    const fem::BlockMesh mesh = fem::make_blocks(request);
-    const double cells =
-        static_cast<double>(mesh.cells.size()) * dem::power(4.0, mesh.halvings + base.refinements);
+    const double cells = elements(scene);
     const double on_detachment =
         2.0 * base.bending.degree *
         std::ldexp(request.interface_end / base.cell_size, base.refinements);
@@ -400,6 +496,7 @@ const Effect& effect() {
         .needs = {"detachment", "gravity"},
         .scale = [](Scene& scene,
                     const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
+        .complete = complete,
         .check = check,
         .contribute = contribute,
         .bending_base = [](const std::any& parameters) -> const BendingBase& {

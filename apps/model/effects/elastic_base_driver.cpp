@@ -9,6 +9,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
 #include "coupling/base_memory.hpp"
+#include "coupling/creep.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
@@ -105,7 +106,15 @@ public:
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
           loads_(refusing([&] {
               return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
-          })) {}
+          })) {
+        if (footwall_->stress_points().empty())
+            return;
+        auto creep = std::make_unique<Creep>(*footwall_, *base_, loads_, make_calendar(scene),
+                                             Travel(scene.extension.distance));
+        creep_ = creep.get();
+        // Before the loads: the base has moved under what they have been.
+        events.insert(events.begin(), std::move(creep));
+    }
 
     std::vector<std::string> description() const override {
         const fem::MeshFacts mesh = footwall_->mesh();
@@ -127,16 +136,13 @@ public:
         base_->settle(state, base, physics, execution, progress);
     }
 
-    void require_own(const State& state) const override;
+    void require_own(const State& state) override;
 
     BaseWindow end_window(State& state, const RigidBase& rigid) override;
 
     const fem::Footwall* recover(const State& state) override {
         require_own(state);
-        fem::Load load = loads_.elsewhere(state);
-        load.interface = base_->interface_forces(state);
-        load.interface.resize(2 * footwall_->interface().size(), 0.0);
-        footwall_->solve(load);
+        solve_for_field(*footwall_, *base_, loads_, state);
         return footwall_.get();
     }
 
@@ -152,13 +158,17 @@ private:
     std::unique_ptr<fem::Footwall> footwall_;
     std::unique_ptr<ElasticBase> base_;
     FootwallLoads loads_;
+    Creep* creep_ = nullptr; ///< one of the run's events, where rock relaxes
 };
 
-void ElasticBaseDriver::require_own(const State& state) const {
+void ElasticBaseDriver::require_own(const State& state) {
     const std::string& file = request_.mesh_file;
     const bool fits = base_->fits(state);
-    if (fits && (file.empty() || mesh_checksum(state).value_or(mesh_checksum_) == mesh_checksum_))
+    if (fits && (file.empty() || mesh_checksum(state).value_or(mesh_checksum_) == mesh_checksum_)) {
+        if (creep_)
+            refusing([&] { creep_->go_on_with(state); });
         return;
+    }
     if (!file.empty())
         throw UsageError(fmt::format("elastic_base.mesh_file: {} has changed since the run began, "
                                      "whose state belongs to the mesh of before; give the file "
@@ -177,7 +187,10 @@ ElasticBaseDriver::solve_on_finer_mesh(const State& state,
                                        std::span<const double> on_interface) const {
     if (checksum_of(request_) != mesh_checksum_)
         throw fem::FootwallError(request_.mesh_file + ": has changed since the run began");
-    return solve_independently(request_, base_->interface(), on_interface, loads_.elsewhere(state));
+    fem::FootwallRequest request = request_;
+    request.step = creep_step(state).value_or(0.0);
+    return solve_independently(request, base_->interface(), on_interface, loads_.elsewhere(state),
+                               footwall_->stress_points());
 }
 
 /// A finer mesh that cannot be made costs the run these measures alone.

@@ -5,6 +5,7 @@
 #include "coupling/elastic_base.hpp"
 #include "fem/footwall.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct ElasticBaseParameters {
     double mass_factor = 0.6;   ///< of the modes
     double swing_damping = 0.1; ///< of the modes with the discs, over critical
 };
+
+/// Whether rock of it relaxes.
+inline bool relaxes(const ElasticBaseParameters& base) {
+    return std::ranges::any_of(base.layers,
+                               [](const fem::Layer& layer) { return layer.viscosity.has_value(); });
+}
 
 /// Parameters of a scene's base; null where it does not bend.
 inline const ElasticBaseParameters* elastic_base(const Scene& scene) {

@@ -2,6 +2,7 @@
 #include "apps/scene/parameters/stage.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "coupling/creep.hpp"
 #include "dem/numbers/elementary.hpp"
 
 #include <cmath>
@@ -41,6 +42,8 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     request.surface_spring = (base.bending.crust_density - base.bending.infill_density) * gravity;
     request.detachment_spring = base.bending.crust_density * gravity;
     request.base_spring = (base.bending.mantle_density - base.bending.crust_density) * gravity;
+    if (relaxes(base))
+        request.step = creep_schedule(make_calendar(scene)).seconds(1);
     request.degree = base.bending.degree;
     request.cell_size = base.cell_size;
     // Discs are left of the right wall; the last contact's face reaches a little further.

@@ -67,6 +67,12 @@ const std::vector<Parameter>& layer_parameters() {
         {"density_kg_per_m3", at<&Layer::density>, "kg/m3", ranges::density, "",
          "density for pictures; crust_density_kg_per_m3 is the one that carries",
          "Changes pictures only."},
+        {"viscosity_pa_s", at<&Layer::viscosity>, "Pa s", between(1e16, 1e30), "eta",
+         "viscosity with which shear stress relaxes, beyond skin_thickness_m from the detachment; "
+         "none: the layer is elastic",
+         "Lowering it lets the layer shed its stress sooner: it takes viscosity over shear "
+         "modulus.",
+         between(1e19, 1e25)},
     };
     return parameters;
 }

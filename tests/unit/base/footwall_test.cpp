@@ -172,6 +172,8 @@ TEST(FootwallCheck, NamesWhatIsWrong) {
     EXPECT_EQ(refusal([](FootwallRequest&) {}), "");
     EXPECT_THAT(refusal([](auto& r) { r.layers[0].poisson_ratio = 0.5; }),
                 HasSubstr("layer 1: Poisson's ratio 0.5, allowed: above -1, below 0.5"));
+    EXPECT_THAT(refusal([](auto& r) { r.layers[0].viscosity = -1e21; }),
+                HasSubstr("layer 1: viscosity -1e+21 Pa s, allowed: above 0"));
     EXPECT_THAT(refusal([](auto& r) { r.layers[0].young_modulus = -1e9; }),
                 HasSubstr("layer 1: Young's modulus -1e+09 Pa, allowed: above 0"));
     EXPECT_THAT(refusal([](auto& r) {

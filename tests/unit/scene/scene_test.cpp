@@ -154,8 +154,8 @@ struct Bits {
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const {
         std::string items;
         for (const fem::Layer& layer : x.get(object))
-            for (const double value :
-                 {layer.top_depth, layer.young_modulus, layer.poisson_ratio, layer.density})
+            for (const double value : {layer.top_depth, layer.young_modulus, layer.poisson_ratio,
+                                       layer.density, layer.viscosity.value_or(0.0)})
                 items += of(value) + " ";
         return items;
     }
