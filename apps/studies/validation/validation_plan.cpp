@@ -44,8 +44,8 @@ PlanTable<RunText> run_table() {
              plan_key("without", at<&T::without>, "tables taken out"),
              plan_key("seeds", at<&T::run, &R::seeds>, "0: all", between(0, 1000)),
              plan_key("accuracy", at<&T::run, &R::accuracy>, "if always the same"),
-             plan_key("at_m", at<&T::run, &R::at>, "measured there; below 0 shortening",
-                      between(-1e6, 1e6), "m")},
+             plan_key("at_m", at<&T::run, &R::at>, "measured there; with stages the wall's way",
+                      between(0, 1e6), "m")},
             {"name", "scene", "at_m"}};
 }
 
@@ -66,10 +66,10 @@ PlanTable<Expectation> expectation_table() {
              plan_key("what", at<&E::what>, "for people"),
              plan_key("run", at<&E::run>, "default: the first"),
              plan_key("minus", at<&E::minus>, "run whose value is taken off"),
-             plan_key("at_m", at<&E::at>, "extension", between(-1e6, 1e6), "m"),
-             plan_key("since_m", at<&E::since>, "extension taken off", between(-1e6, 1e6), "m"),
+             plan_key("at_m", at<&E::at>, "extension", between(0, 1e6), "m"),
+             plan_key("since_m", at<&E::since>, "extension taken off", between(0, 1e6), "m"),
              plan_key("mean_from_m", at<&E::mean_from>,
-                      "mean over the run's at_m from here to the row's", between(-1e6, 1e6), "m"),
+                      "mean over the run's at_m from here to the row's", between(0, 1e6), "m"),
              plan_key("of_mean", at<&E::of_mean>, "the mean over the seeds is judged, not each"),
              plan_key("unit", at<&E::unit>, "value over this is shown", {.above = 0}),
              plan_key("digits", at<&E::digits>, "after the point", between(0, 9)),
@@ -111,7 +111,7 @@ PlanTable<ValidationPicture::Row> picture_row_table() {
     using Row = ValidationPicture::Row;
     return {"states below each other",
             {plan_key("run", at<&Row::run>, "drawn"),
-             plan_key("at_m", at<&Row::at>, "extension", between(-1e6, 1e6), "m"),
+             plan_key("at_m", at<&Row::at>, "extension", between(0, 1e6), "m"),
              plan_key("seeds", at<&Row::seeds>, "0: all", between(0, 1000))}};
 }
 
@@ -373,9 +373,8 @@ std::vector<double> Expectation::moments_of(const ValidationRun& of, double last
     if (!mean_from)
         return {last};
     std::vector<double> moments;
-    std::ranges::copy_if(of.at, std::back_inserter(moments), [&](double moment) {
-        return (moment - *mean_from) * (moment - last) <= 0.0;
-    });
+    std::ranges::copy_if(of.at, std::back_inserter(moments),
+                         [&](double moment) { return moment >= *mean_from && moment <= last; });
     return moments;
 }
 

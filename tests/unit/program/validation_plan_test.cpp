@@ -272,12 +272,12 @@ TEST(Judge, TakesTheMeanOfTheSeedsWhereTheRowSaysSo) {
 
 TEST(Expectation, IsOfOneMomentOrTheMeanOfThoseSince) {
     ValidationRun run;
-    run.at = {-800, -400, -200, 100};
+    run.at = {100, 200, 400, 800};
     Expectation e;
     EXPECT_EQ(e.moments_of(run, 100), std::vector{100.0});
-    e.mean_from = -200.0;
-    EXPECT_EQ(e.moments_of(run, -800), (std::vector{-800.0, -400.0, -200.0}));
-    EXPECT_EQ(e.moments_of(run, 100), (std::vector{-200.0, 100.0}));
+    e.mean_from = 200.0;
+    EXPECT_EQ(e.moments_of(run, 800), (std::vector{200.0, 400.0, 800.0}));
+    EXPECT_EQ(e.moments_of(run, 400), (std::vector{200.0, 400.0}));
 }
 
 TEST(Judge, ASeedWithoutValueIsNoCase) {
