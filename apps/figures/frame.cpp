@@ -254,6 +254,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"seed", scene.seed},
         {"accuracy", scene.accuracy},
         {"effects", effect_names(scene)},
+        {"has_detachment", scene.detachment.has_value()},
         {"strain_window_m", strain_window},
     };
     for (const MeasureTable& table : measure_tables())

@@ -103,6 +103,7 @@ json head_of(const ReportPage::Run& run) {
               {"rock", rock_line(scene, run.rocks)},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
+              {"has_detachment", scene.detachment.has_value()},
               {"layers", declared_layers(scene)},
               {"settling", settling_of(scene)},
               {"length_m", scene.hanging_wall.length},

@@ -90,10 +90,11 @@ std::vector<double> stresses(const LaboratoryRequest& request, Test test) {
 /// Refuses options of another test, and rock that the test cannot take.
 void check(const LaboratoryRequest& request, Test test, const RockMaterial& rock) {
     const bool in_slab = test == Test::pure_shear;
-    if ((test == Test::biaxial || in_slab) && !rock.bonds)
-        throw UsageError(fmt::format("{}: this test needs a rock with [bonds]; the shear box "
-                                     "takes materials without (listric laboratory shear-box {})",
-                                     rock.name, request.material));
+    if (in_slab && !rock.bonds)
+        throw UsageError(
+            fmt::format("{}: this test needs a rock with [bonds]; the biaxial test and "
+                        "the shear box take materials without (listric laboratory biaxial {})",
+                        rock.name, request.material));
     if (!in_slab && (request.weakened || !request.weakening_rates.empty() ||
                      !request.healing_rates.empty() || request.accuracy != "draft"))
         throw UsageError("--weakened, --weakening-rates, --healing-rates, --accuracy: only the "

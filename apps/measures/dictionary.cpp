@@ -151,6 +151,14 @@ constexpr Measure<M> of_base[] = {
     {"left_wall_force_n_per_m", "N/m", "force on the left wall",
      "horizontal force of the discs on the left wall of a box that stretches",
      taken<&M::base, &BaseForces::left_wall>},
+    {"moved_border_dip_deg", "deg", "dip of the border of what the wall moved",
+     "on a base at rest: dip of the best straight line, through eight layers, between rock that "
+     "has gone at least half of the wall's way along x and rock that has not",
+     taken<&M::wall_wedge, &WallWedge::border_dip>},
+    {"wedge_slope_deg", "deg", "slope of the wedge at a wall that pushes",
+     "on a base at rest, shortened: slope of the ground that falls from its highest place to the "
+     "left, best straight line between five sixths and a sixth of its height",
+     taken<&M::wall_wedge, &WallWedge::slope>},
 };
 
 constexpr Measure<M> of_quality[] = {

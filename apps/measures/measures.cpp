@@ -171,6 +171,7 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
         !setting.motion.shortens(just_before(setting.motion, state.clock)))
         add_still_ground(m, setting, state);
     m.base = measure_base_forces(state, base);
+    m.wall_wedge = measure_wall_wedge(setting, state, profile);
     add_conservation(m, state);
     add_quietness(m, setting, events);
     return m;

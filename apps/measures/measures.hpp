@@ -3,6 +3,7 @@
 #include "apps/measures/base_forces.hpp"
 #include "apps/measures/basin/depocentres.hpp"
 #include "apps/measures/faults/broken_rock.hpp"
+#include "apps/measures/faults/wall_wedge.hpp"
 #include "apps/measures/setting.hpp"
 #include "apps/measures/strata/cohesion.hpp"
 #include "dem/base.hpp"
@@ -38,6 +39,7 @@ struct Measures {
     /// and before forces are sampled.
     std::optional<bool> quasi_static;
     BaseForces base;
+    WallWedge wall_wedge; ///< on a base at rest
     std::optional<std::vector<Depocentre>> depocentres;
     /// Where the halfgraben ends and the collapse graben begins, with the share of the basin's area
     /// on the halfgraben's side.

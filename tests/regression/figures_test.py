@@ -42,6 +42,26 @@ figures_at_m = []
 """
 
 
+BOX = """
+[hanging_wall]
+length_m = 4000.0
+thickness_m = 1000.0
+mean_radius_m = 100.0
+[base_motion]
+fault_x_m = 2000.0
+fault_slip_m = 40.0
+[materials]
+basement = 'sandbox-sand'
+[extension]
+speed_m_per_s = 2.0
+ramp_s = 2.0
+[gravity]
+[output]
+interval_m = 20.0
+figures_at_m = []
+"""
+
+
 class Figures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -106,6 +126,19 @@ class Figures(unittest.TestCase):
         for moment, told in (("50m", "(100 a)"), ("100m", "(200 a)")):
             self.assertEqual(self.listric("figures", "short", "--at", moment, "--only", "strata").returncode, 0)
             self.assertIn(f"at 50 cm/yr {told}: ", (self.folder / "short/figures/caption.txt").read_text())
+
+    def test_a_box_has_a_base_and_no_breakaway(self):
+        place = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (place / "box.toml").write_text(BOX)
+        ended = self.listric("run", "box.toml", "--no-report", "--threads", "1", "--output", "out", place=place,
+                             LISTRIC_PYTHON="/bin/false")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        ended = self.listric("figures", "out", "--only", "strata", "--format", "svg", place=place)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        text = next((place / "out/figures").glob("strata-*.svg")).read_text()
+        self.assertIn("Distance from the left wall", text)
+        self.assertNotIn("breakaway", text)
+        self.assertNotIn(">detachment<", text)
 
     def test_a_figure_for_print_has_its_width(self):
         folder = self.copy("print")

@@ -114,6 +114,15 @@ class Frame:
         return self.meta["extension_m"] / 1000.0
 
     @property
+    def has_detachment(self) -> bool:
+        return bool(self.meta.get("has_detachment", True))
+
+    @property
+    def left_end(self) -> str:
+        """What is at x = 0."""
+        return "breakaway" if self.has_detachment else "left wall"
+
+    @property
     def wall(self) -> float:
         return self.meta["right_wall_x_m"] / 1000.0
 

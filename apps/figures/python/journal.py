@@ -174,7 +174,7 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
         for k, axis in enumerate((ax.yaxis, cax.yaxis)):
             axis.set_label_text(row.folded(k))
         lowest = index + 1 == len(rows)
-        name_distance(ax, lowest)
+        name_distance(ax, frame, lowest)
         line = (y + row.high + row.overhang + 0.05) / up
         figure.text(0.03 / across, line + LABEL_LINE * title.count("\n") / up, letter(index), fontsize=10, weight="bold", va="bottom")
         figure.text(left / across, line, title, fontsize=10, va="bottom")

@@ -175,10 +175,10 @@ def set_ticks(ax) -> None:
     ax.tick_params(which="minor", length=2)
 
 
-def name_distance(ax, lowest: bool) -> None:
+def name_distance(ax, frame: Frame, lowest: bool) -> None:
     """Numbers and name of the x axis, under the lowest panel only."""
     if lowest:
         left, right = ax.get_xlim()
-        ax.set_xlabel(f"Distance from the breakaway ({length_unit(right - left)[0]})")
+        ax.set_xlabel(f"Distance from the {frame.left_end} ({length_unit(right - left)[0]})")
     else:
         ax.tick_params(labelbottom=False)

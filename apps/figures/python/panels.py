@@ -50,7 +50,7 @@ def strata_panel(ax, cax, frame: Frame) -> None:
         cax.set_axis_off()
     draw_discs(ax, frame, rgb)
     handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {LAYER:g} km layers"),
-               *bed_handles(frame), (stroke(INK, 1.5), "detachment")]
+               *bed_handles(frame), (stroke(INK, 1.5), "detachment" if frame.has_detachment else "base")]
     if frame.level is not None:
         style = {"color": LEVEL_BLUE, "linewidth": 1.0, "dashes": (6, 3), "zorder": 6}
         if frame.target_line is None:

@@ -33,7 +33,7 @@ def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI, plain: boo
         cax = add_axes(figure, LEFT + width + 0.16, y, 0.17, height)
         panel_of(name)(ax, cax, frame)
         set_ticks(ax)
-        name_distance(ax, lowest=index + 1 == len(names))
+        name_distance(ax, frame, lowest=index + 1 == len(names))
         y -= GAP
     return figure
 

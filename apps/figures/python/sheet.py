@@ -43,7 +43,7 @@ def draw_sheet(frames: Sequence[Frame]) -> Figure:
             mark_letter(ax, letters[column])
             if row == 0:
                 name_column(ax, frames[column])
-            name_distance(ax, lowest=row + 1 == len(kinds))
+            name_distance(ax, frames[column], lowest=row + 1 == len(kinds))
         draw_legend(figure, row_text(texts, letters), entries, y + height)
         y -= GAP
     return figure
@@ -123,7 +123,7 @@ def draw_gallery(frames: Sequence[Frame]) -> Figure:
                 ax.annotate(str(frame.meta.get("title", "")), (0, 1), (0, 5), fontsize=13,
                             xycoords="axes fraction", textcoords="offset points",
                             weight="semibold", annotation_clip=False)
-            name_distance(ax, lowest=row + 1 == len(frames))
+            name_distance(ax, frame, lowest=row + 1 == len(frames))
     return figure
 
 
@@ -152,7 +152,7 @@ def draw_multiples(frames: Sequence[Frame]) -> Figure:
         title = textwrap.fill(str(frame.meta.get("title", "")), int(step * 15))
         ax.annotate(title, (0, 1), (0, 3), fontsize=7, xycoords="axes fraction",
                     textcoords="offset points", annotation_clip=False)
-        name_distance(ax, lowest=number + columns >= len(frames))
+        name_distance(ax, frame, lowest=number + columns >= len(frames))
     return figure
 
 

@@ -63,7 +63,9 @@ function placedLegend(items, width, widthOf) {
   });
 }
 
-function distanceWords() { return `distance from the breakaway (${lengthUnit().name})`; }
+function distanceWords() {
+  return `distance from the ${page.runs.some(hasDetachment) ? "breakaway" : "left wall"} (${lengthUnit().name})`;
+}
 
 /** Text of a legend entry beside its colours. */
 function legendText({label, from, to}) { return from === undefined ? label : `${label}: ${from} to ${to}`; }

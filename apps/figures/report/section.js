@@ -13,10 +13,14 @@ const isIn = {
 };
 
 /** Layers that a run of these has, by name: those of every run, and what its effects declare. */
+function hasDetachment(run) { return run.head.has_detachment !== false; }
+
 function layersOf(runs) {
   const own = runs.flatMap(run => run.head.layers).map(layer => [layer.name, {...layer, on: layer.kind !== "discs"}]);
   const known = Object.entries(vocabulary.layers).filter(([name]) => runs.some(isIn[name] || (() => true)));
-  return Object.fromEntries([...known, ...own]);
+  const layers = Object.fromEntries([...known, ...own]);
+  if (!runs.some(hasDetachment)) layers.detachment = {...layers.detachment, label: "base"};
+  return layers;
 }
 
 /** Layers of a kind that a run's effects declare, as far as they are shown. */

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 namespace listric {
 
@@ -43,7 +44,8 @@ PlanTable<RunText> run_table() {
              plan_key("without", at<&T::without>, "tables taken out"),
              plan_key("seeds", at<&T::run, &R::seeds>, "0: all", between(0, 1000)),
              plan_key("accuracy", at<&T::run, &R::accuracy>, "if always the same"),
-             plan_key("at_m", at<&T::run, &R::at>, "measured there", between(0, 1e6), "m")},
+             plan_key("at_m", at<&T::run, &R::at>, "measured there; with stages the wall's way",
+                      between(0, 1e6), "m")},
             {"name", "scene", "at_m"}};
 }
 
@@ -66,6 +68,9 @@ PlanTable<Expectation> expectation_table() {
              plan_key("minus", at<&E::minus>, "run whose value is taken off"),
              plan_key("at_m", at<&E::at>, "extension", between(0, 1e6), "m"),
              plan_key("since_m", at<&E::since>, "extension taken off", between(0, 1e6), "m"),
+             plan_key("mean_from_m", at<&E::mean_from>,
+                      "mean over the run's at_m from here to the row's", between(0, 1e6), "m"),
+             plan_key("of_mean", at<&E::of_mean>, "the mean over the seeds is judged, not each"),
              plan_key("unit", at<&E::unit>, "value over this is shown", {.above = 0}),
              plan_key("digits", at<&E::digits>, "after the point", between(0, 9)),
              plan_key("expected", at<&E::expected>, "value of the source"),
@@ -87,6 +92,10 @@ Expectation read_expectation(const Entry& entry) {
         fail(entry, "has a least that is above most, which no value meets");
     if (e.is_judged() && !e.reason.empty())
         fail(entry, "has bounds and a reason to have none: one or the other");
+    if (e.of_mean && e.kind == Expectation::Kind::faults)
+        fail(entry, "of_mean: a row of faults counts seeds; give kind = \"kinematics\"");
+    if (e.mean_from && e.since)
+        fail(entry, "has mean_from_m and since_m: one or the other");
     return e;
 }
 
@@ -289,8 +298,9 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         need_moment(plan, entry, "expects " + e.measure, e.run, at);
         if (!e.minus.empty())
             need_moment(plan, entry, "expects " + e.measure, e.minus, at);
-        if (e.since)
-            need_moment(plan, entry, "expects " + e.measure, e.run, *e.since);
+        for (const auto& other : {e.since, e.mean_from})
+            if (other)
+                need_moment(plan, entry, "expects " + e.measure, e.run, *other);
     };
     for (const Entry& entry : tables(top, "experiment")) {
         const ValidationExperiment x = read_experiment(entry, known, check_measure);
@@ -359,6 +369,15 @@ std::string Expectation::target() const {
     return "–";
 }
 
+std::vector<double> Expectation::moments_of(const ValidationRun& of, double last) const {
+    if (!mean_from)
+        return {last};
+    std::vector<double> moments;
+    std::ranges::copy_if(of.at, std::back_inserter(moments),
+                         [&](double moment) { return moment >= *mean_from && moment <= last; });
+    return moments;
+}
+
 std::string_view name_of(Expectation::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 std::string_view name_of(Verdict::Name name) { return verdicts[static_cast<std::size_t>(name)]; }
@@ -371,6 +390,11 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
         v.no_case += !value;
         v.met += value && e.meets(*value);
     }
+    double mean = 0.0;
+    for (const auto& value : values)
+        mean += value.value_or(0.0) / std::max(v.of, 1);
+    if (e.of_mean)
+        v.met = e.meets(mean) ? v.of : 0;
     const auto [lower, upper] = probability_limits(v.met, v.of);
     const bool often = e.kind == Expectation::Kind::faults;
     if (values.empty())
@@ -385,7 +409,8 @@ Verdict judge(const Expectation& e, std::span<const std::optional<double>> value
         v.name = v.met == v.of ? met : missed;
     v.text = name_of(v.name);
     if (e.is_judged() && v.of > 0) {
-        v.text += fmt::format(" ({} of {}", v.met, v.of);
+        v.text +=
+            e.of_mean ? fmt::format(" (mean of {}", v.of) : fmt::format(" ({} of {}", v.met, v.of);
         v.text += often ? fmt::format(": {:.2f} to {:.2f})", lower, upper) : ")";
         if (v.no_case > 0)
             v.text += fmt::format(", {} no case", v.no_case);

@@ -37,6 +37,8 @@ struct Expectation {
     std::string minus;                 ///< the run whose value is taken off, seed by seed
     std::optional<double> at;          ///< extension, m; default: the run's last
     std::optional<double> since;       ///< extension whose value is taken off, m
+    std::optional<double> mean_from;   ///< extension, m: mean over the run's moments since then
+    bool of_mean = false;              ///< the seeds' mean is judged, not each
     double unit = 1.0;                 ///< value / unit is what is shown and judged
     int digits = 2;                    ///< shown after the point
     std::optional<double> expected;    ///< within the tolerance,
@@ -50,6 +52,9 @@ struct Expectation {
     bool is_judged() const { return expected || least || most; }
     bool meets(double value) const;
     std::string target() const; ///< "38.20 ± 0.50", "at least 0.60"
+
+    /// Moments of a run whose mean the value is: the last, or those since mean_from.
+    std::vector<double> moments_of(const ValidationRun& of, double last) const;
 };
 
 std::string_view name_of(Expectation::Kind kind);

@@ -232,7 +232,8 @@ constexpr std::string_view how_to_read =
     "such a seed does not count |\n"
     "| limits | each by itself at a confidence of 95 %, exact (Clopper and Pearson 1934): 5 of 5 "
     "seeds, or 15 of 20, show; 0 of 5, or 5 of 20, do not |\n"
-    "| *kinematics*, *conservation* | the machinery; *met* where every seed has it |\n"
+    "| *kinematics*, *conservation* | the machinery; *met* where every seed has it, or the mean of "
+    "the seeds where the verdict says so |\n"
     "| a column with a run's name | value of this run, and how many of its seeds meet the "
     "criterion; "
     "what a control without AFD and ICM meets, too, does not need them |\n\n"
@@ -411,30 +412,45 @@ std::string section(const ValidationFindings& f, const ValidationExperiment& x) 
     return text;
 }
 
+/// The expectation's number of a run at a moment; none where it has no meaning.
+std::optional<double> number_of(const ValidationFindings& f, const Expectation& e,
+                                const MeasuredPlace& place) {
+    auto number = number_at(f.store, place, e.measure);
+    if (number && !e.over.empty()) {
+        const double over = number_at(f.store, place, e.over).value_or(0.0);
+        number = over != 0.0 ? std::optional(*number / over) : std::nullopt;
+    }
+    return number;
+}
+
 /// The value of a seed; no outer one where it is not recorded, no inner one where the measure has
 /// no meaning.
 std::optional<std::optional<double>> value_of(const ValidationFindings& f, const Expectation& e,
                                               const std::string& of, int seed) {
-    const double at = e.at.value_or(f.plan.run(of).at.back());
-    std::vector<MeasuredPlace> places{{of, seed, at}}; // from the first the others are taken off
+    struct Part {
+        std::string run;
+        std::vector<double> moments;
+        double sign;
+    };
+    const double last = e.at.value_or(f.plan.run(of).at.back());
+    std::vector<Part> parts{{of, e.moments_of(f.plan.run(of), last), 1.0}};
     if (!e.minus.empty())
-        places.push_back({e.minus, seed, at});
+        parts.push_back({e.minus, e.moments_of(f.plan.run(e.minus), last), -1.0});
     if (e.since)
-        places.push_back({of, seed, *e.since});
-    if (!std::ranges::all_of(places, [&](const auto& place) { return f.store.contains(place); }))
-        return std::nullopt;
-    std::optional<double> value;
-    for (const MeasuredPlace& place : places) {
-        auto number = number_at(f.store, place, e.measure);
-        if (number && !e.over.empty()) {
-            const double over = number_at(f.store, place, e.over).value_or(0.0);
-            number = over != 0.0 ? std::optional(*number / over) : std::nullopt;
+        parts.push_back({of, {*e.since}, -1.0});
+    std::optional<double> value = 0.0;
+    for (const Part& part : parts)
+        for (const double at : part.moments) {
+            const MeasuredPlace place{part.run, seed, at};
+            if (!f.store.contains(place))
+                return std::nullopt;
+            const auto number = number_of(f, e, place);
+            if (value && number)
+                *value += part.sign * *number / static_cast<double>(part.moments.size());
+            else
+                value.reset();
         }
-        if (!number)
-            return std::optional<double>();
-        value = value ? *value - *number : *number;
-    }
-    return std::optional(*value / e.unit);
+    return value ? std::optional(*value / e.unit) : value;
 }
 
 /// A row of the chart; `beside` counts the seeds of the run beside it that meet the row.

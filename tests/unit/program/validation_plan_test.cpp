@@ -180,14 +180,18 @@ like = "lis2"
                 AllOf(HasSubstr(":1:"), HasSubstr("extended itself")));
 }
 
-TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
-    const ValidationPlan plan =
-        load_validation_plan(std::string(source_folder) + "/apps/studies/validation.toml");
+ValidationPlan shipped_plan(const std::string& name) {
+    return load_validation_plan(std::string(source_folder) + "/apps/studies/" + name + ".toml");
+}
+
+TEST_F(Plan, TheOnesThatAreShippedCanBeRead) {
     std::vector<std::string> scenes;
     for (const auto& [name, description] : list_scenes())
         scenes.push_back(name);
-    for (const ValidationRun& run : plan.runs)
-        EXPECT_THAT(scenes, testing::Contains(run.scene)) << run.name;
+    for (const std::string name : {"validation", "benchmarks"})
+        for (const ValidationRun& run : shipped_plan(name).runs)
+            EXPECT_THAT(scenes, testing::Contains(run.scene)) << run.name;
+    const ValidationPlan plan = shipped_plan("validation");
     for (const ValidationExperiment& x : plan.experiments)
         for (const Expectation& e : x.expectations)
             if (e.at) {
@@ -254,6 +258,26 @@ TEST(Judge, IsOfEverySeedInTheMachinery) {
     e.kind = Expectation::Kind::conservation;
     EXPECT_EQ(judge(e, seeds(1, 0)).text, "met (1 of 1)");
     EXPECT_EQ(judge(e, seeds(19, 1)).text, "missed (19 of 20)");
+}
+
+TEST(Judge, TakesTheMeanOfTheSeedsWhereTheRowSaysSo) {
+    Expectation e = at_least_one();
+    e.kind = Expectation::Kind::kinematics;
+    e.of_mean = true;
+    EXPECT_EQ(judge(e, seeds(3, 2)).text, "met (mean of 5)"); // 1.2
+    EXPECT_EQ(judge(e, seeds(2, 3)).text, "missed (mean of 5)");
+    EXPECT_EQ(judge(e, Values{1.5, std::nullopt}).text, "met (mean of 1), 1 no case");
+    EXPECT_EQ(judge(e, Values{std::nullopt}).text, "no case");
+}
+
+TEST(Expectation, IsOfOneMomentOrTheMeanOfThoseSince) {
+    ValidationRun run;
+    run.at = {100, 200, 400, 800};
+    Expectation e;
+    EXPECT_EQ(e.moments_of(run, 100), std::vector{100.0});
+    e.mean_from = 200.0;
+    EXPECT_EQ(e.moments_of(run, 800), (std::vector{200.0, 400.0, 800.0}));
+    EXPECT_EQ(e.moments_of(run, 400), (std::vector{200.0, 400.0}));
 }
 
 TEST(Judge, ASeedWithoutValueIsNoCase) {

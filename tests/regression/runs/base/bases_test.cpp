@@ -78,9 +78,10 @@ TEST_F(Bases, AStageHasThatOfTheDetachmentOrItsOwn) {
 // m, five seeds: slip of 0.85 to 0.92 of the wall's with a friction of 0.1, 0.03 to 0.07 with 0.35.
 TEST_F(Bases, SandSlidesDownARampBelowItsFrictionsLimit) {
     const auto slides = [&](const std::string& friction) {
-        const Scene sand = load(contents(test_scene("sand-ramp.toml")),
-                                {"hanging_wall.mean_radius_m=640.0", "extension.distance_m=400.0",
-                                 "detachment.friction=" + friction});
+        const Scene sand =
+            load_scene({.scene = "sand-ramp",
+                        .set = {"hanging_wall.mean_radius_m=640.0", "extension.distance_m=400.0",
+                                "detachment.friction=" + friction}});
         return run(sand, "sand" + friction);
     };
     const auto weak = slides("0.1"), strong = slides("0.35");
@@ -100,7 +101,9 @@ TEST_F(Bases, EveryShippedSceneSaysItsOwnInWords) {
     for (const auto& [name, description] : list_scenes()) {
         const Scene shipped = load_scene({.scene = name});
         const std::string words = base_words(shipped);
-        EXPECT_THAT(words, HasSubstr(shipped.detachment ? "sheet: the whole detachment moves"
+        EXPECT_THAT(words, HasSubstr(name == "sand-ramp"    ? "ramp: the footwall is at rest"
+                                     : name == "sand-wedge" ? "rests: the footwall is at rest"
+                                     : shipped.detachment   ? "sheet: the whole detachment moves"
                                      : name == "basement-fault" ? "fault of the basement dips"
                                                                 : "stretches uniformly"))
             << name;
