@@ -19,7 +19,8 @@ library("osgeo")
 from osgeo import gdal, ogr, osr
 
 ENGINEERING = ('ENGCRS["Section: x from the breakaway, height above the original surface",'
-               'EDATUM["original surface at the breakaway"],CS[Cartesian,2],AXIS["x",east],AXIS["height",north],LENGTHUNIT["metre",1]]')
+               'EDATUM["original surface at the breakaway"],CS[Cartesian,2],'
+               'AXIS["x",east],AXIS["height",north],LENGTHUNIT["metre",1]]')
 DRIVERS = {".gpkg": "GPKG", ".dxf": "DXF"}
 
 
