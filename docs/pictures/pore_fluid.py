@@ -36,8 +36,7 @@ def section(figure, axes, snapshot, values, colours, highest, label):
     for fault in snapshot.lines("faults"):
         axes.plot(np.asarray(fault["x_m"]) / 1e3, np.asarray(fault["depth_m"]) / 1e3, color=animate.INK, lw=0.9)
     axes.set(xlim=(-1, 36), ylim=(11.5, -0.6), ylabel="depth (km)")
-    if label:
-        figure.colorbar(image, ax=axes, label=label, fraction=0.03, pad=0.01)
+    return figure.colorbar(image, ax=axes, label=label, fraction=0.03, pad=0.01)
 
 
 def means(grid, cells):
@@ -64,8 +63,8 @@ def isobars(axes, snapshot):
 
     near = max(1, round(400 / animate.SPACING))
     pressure = of("excess_pressure", near) / 1e6
-    lines = axes.contour(*places(near), np.ma.masked_invalid(pressure), colors=animate.INK, linewidths=0.7,
-                         levels=np.arange(10, 200, 10))
+    lines = axes.contour(*places(near), np.ma.masked_invalid(pressure), colors="#00bcd4", linewidths=0.9,
+                         levels=np.arange(5, 200, 5))
     axes.clabel(lines, fmt="%d MPa", fontsize=6)
     far = max(1, round(1200 / animate.SPACING))
     flow_x, flow_y = of("darcy_x", far) * 3.156e10, of("darcy_y", far) * 3.156e10   # mm/a
@@ -99,14 +98,14 @@ def curves(axes, profile, run):
     weight.plot(column["mud_weight_kg_per_m3"] / 1e3, z, color="#b71c1c", lw=2)
     weight.set(xlabel="mud weight (g/cm³)")
     if "bed" in run.scene:
-        now = run.summary["travel_m"] / run.scene["extension"].get("rate_m_per_a", 0.01)
+        now = run.summary["extension_m"] / run.scene["extension"].get("rate_m_per_a", 0.01)
         bed = bed_of(run, now - column["age_a"])
         for change in np.flatnonzero(np.diff(bed)):
             for panel in axes:
                 panel.axhline(0.5 * (z[change] + z[change + 1]), color="#9e9e9e", lw=0.8, ls="--")
         for k in np.unique(bed):
-            weight.text(0.97, z[bed == k].mean(), run.scene["bed"][k].get("name", ""), fontsize=7, ha="right",
-                        transform=weight.get_yaxis_transform())
+            porosity.text(0.99, z[bed == k].mean(), run.scene["bed"][k].get("name", ""), fontsize=7, ha="right",
+                          transform=porosity.get_yaxis_transform())
     for panel in axes:
         panel.set_ylim(z[-1] * 1.02, 0.0)
         panel.spines[["top", "right"]].set_visible(False)
@@ -132,9 +131,8 @@ def main():
         rate = run.scene["extension"].get("rate_m_per_a", 0.01)
         laid = np.asarray(snapshot.raster("start_travel", animate.SPACING)[2]) / rate
         beds = np.where(np.asarray(stratum) > 0, bed_of(run, laid) + 1.0, np.nan)
-        section(figure, second, snapshot, beds, plt.get_cmap("YlOrBr"), len(run.scene["bed"]) + 1.0, "")
-        names = ", ".join(bed.get("name", "") for bed in run.scene["bed"])
-        second.set_title(f"beds, from pale to dark: {names}", loc="left", fontsize=9)
+        bar = section(figure, second, snapshot, beds, plt.get_cmap("YlOrBr"), len(run.scene["bed"]) + 1.0, "")
+        bar.set_ticks(range(1, len(run.scene["bed"]) + 1), labels=[bed.get("name", "") for bed in run.scene["bed"]])
     else:
         section(figure, second, snapshot, np.asarray(porosity) - normal, POROSITY, 0.3, "porosity − that at rest")
     second.set_xlabel("distance from the breakaway (km)")
