@@ -35,7 +35,7 @@ def section(figure, axes, snapshot, values, colours, highest, label):
     axes.plot(foot_x, foot_z, color=animate.INK, lw=1.2)
     for fault in snapshot.lines("faults"):
         axes.plot(np.asarray(fault["x_m"]) / 1e3, np.asarray(fault["depth_m"]) / 1e3, color=animate.INK, lw=0.9)
-    axes.set(xlim=(-1, 36), ylim=(11.5, -0.6), ylabel="depth (km)")
+    axes.set(xlim=(-1, 36), ylim=(11.5, -1.2), ylabel="depth (km)")
     return figure.colorbar(image, ax=axes, label=label, fraction=0.03, pad=0.01)
 
 
