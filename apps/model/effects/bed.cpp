@@ -2,12 +2,14 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "fluid/pore_law.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
