@@ -1,12 +1,12 @@
 // Beds of sediment: which stratum is of which, and what their tables become.
 
+#include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/sediment_bed.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "dem/beds.hpp"
 #include "fluid/pore_law.hpp"
-#include "tests/program.hpp"
 
 #include <gtest/gtest.h>
 
