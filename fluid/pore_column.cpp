@@ -13,12 +13,26 @@ namespace {
 /// Layers from the floor up.
 struct Layers {
     std::vector<double> grains, water, excess_pressure, burial;
+    std::vector<MudColumn::Bed> kinds;
 
     std::size_t count() const { return grains.size(); }
 };
 
-double thickness(const PoreLaw& law, const Layers& layers, std::size_t k) {
-    return layers.grains[k] / (1.0 - porosity_at(law, layers.burial[k]));
+double porosity(const Layers& layers, std::size_t k) {
+    return porosity_at(layers.kinds[k].law, layers.burial[k]);
+}
+
+double thickness(const Layers& layers, std::size_t k) {
+    return layers.grains[k] / (1.0 - porosity(layers, k));
+}
+
+/// What is laid down at a time, s.
+MudColumn::Bed kind_at(const MudColumn& column, double time) {
+    constexpr double almost = 1.0 - 1e-9;
+    for (const MudColumn::Bed& bed : column.beds)
+        if (almost * time <= bed.until)
+            return bed;
+    return column.beds.empty() ? MudColumn::Bed{0.0, column.law, column.mud} : column.beds.back();
 }
 
 std::vector<double> grains_above(const Layers& layers) {
@@ -36,8 +50,8 @@ FlowNetwork network_of(const MudColumn& column, const Layers& layers) {
     network.drains.assign(layers.count(), 0.0);
     double height_below = 0.0, k_below = 0.0;
     for (std::size_t k = 0; k < layers.count(); ++k) {
-        const double height = thickness(column.law, layers, k);
-        const double k_here = permeability(column.mud, porosity_at(column.law, layers.burial[k]));
+        const double height = thickness(layers, k);
+        const double k_here = permeability(layers.kinds[k].mud, porosity(layers, k));
         if (k > 0)
             network.links.push_back({static_cast<std::int32_t>(k - 1), static_cast<std::int32_t>(k),
                                      2.0 * k_below * k_here / (k_below + k_here) /
@@ -51,29 +65,30 @@ FlowNetwork network_of(const MudColumn& column, const Layers& layers) {
 }
 
 /// Fills the column up.
-void deposit(const MudColumn& column, double floor, Layers& layers, SunkColumn& sunk) {
+void deposit(const MudColumn::Bed& kind, double floor, Layers& layers, SunkColumn& sunk) {
     double height = 0.0;
     for (std::size_t k = 0; k < layers.count(); ++k)
-        height += thickness(column.law, layers, k);
-    const double room = floor - height, solid = 1.0 - column.law.surface_porosity;
+        height += thickness(layers, k);
+    const double room = floor - height, pores = kind.law.surface_porosity, solid = 1.0 - pores;
     if (room <= 0.0)
         return;
     layers.grains.push_back(solid * room);
-    layers.water.push_back(column.law.surface_porosity * room);
+    layers.water.push_back(pores * room);
     layers.excess_pressure.push_back(0.0);
     layers.burial.push_back(0.0);
+    layers.kinds.push_back(kind);
     sunk.grains += solid * room;
-    sunk.came += column.law.surface_porosity * room;
+    sunk.came += pores * room;
 }
 
 void drain(const MudColumn& column, double step, Layers& layers, SunkColumn& sunk) {
-    const PoreLaw& law = column.law;
     const std::vector<double> above = grains_above(layers);
     PressureBounds bounds;
     for (const double grains : above)
-        bounds.highest.push_back(column.fracture_ratio * law.grain_weight * grains);
+        bounds.highest.push_back(column.fracture_ratio * column.law.grain_weight * grains);
     bounds.lowest.assign(layers.count(), -std::numeric_limits<double>::infinity());
     const Storage storage = [&](std::size_t k, double u) {
+        const PoreLaw& law = layers.kinds[k].law;
         const VoidRatio e = void_ratio(law, above[k], layers.burial[k], u);
         const double swelling = 1.0 + law.compressibility * u;
         return Stored{layers.grains[k] * e.value * swelling,
@@ -82,8 +97,8 @@ void drain(const MudColumn& column, double step, Layers& layers, SunkColumn& sun
     const FlowOutcome outcome = flow(network_of(column, layers), storage, bounds, step,
                                      layers.water, layers.excess_pressure);
     for (std::size_t k = 0; k < layers.count(); ++k)
-        layers.burial[k] =
-            std::max(layers.burial[k], burial_under(law, above[k], layers.excess_pressure[k]));
+        layers.burial[k] = std::max(layers.burial[k], burial_under(layers.kinds[k].law, above[k],
+                                                                   layers.excess_pressure[k]));
     sunk.surface += outcome.surface;
     sunk.vented += outcome.vented;
     sunk.most_steps = std::max(sunk.most_steps, outcome.steps);
@@ -127,20 +142,21 @@ MudLayer SunkColumn::at(double depth) const {
 SunkColumn sink(const MudColumn& column, std::span<const double> floor, double step) {
     Layers layers;
     SunkColumn sunk;
+    double time = 0.0;
     for (const double depth : floor) {
-        deposit(column, depth, layers, sunk);
+        time += step;
+        deposit(kind_at(column, time), depth, layers, sunk);
         drain(column, step, layers, sunk);
     }
     const std::vector<double> above = grains_above(layers);
     double top = 0.0;
     for (std::size_t k = 0; k < layers.count(); ++k)
-        top += thickness(column.law, layers, k);
+        top += thickness(layers, k);
     double bottom = 0.0;
     for (std::size_t k = 0; k < layers.count(); ++k) {
-        const double height = thickness(column.law, layers, k);
+        const double height = thickness(layers, k);
         const double u = layers.excess_pressure[k];
-        sunk.layers.push_back({top - bottom - 0.5 * height, above[k], u,
-                               porosity_at(column.law, layers.burial[k]),
+        sunk.layers.push_back({top - bottom - 0.5 * height, above[k], u, porosity(layers, k),
                                u / (column.law.grain_weight * above[k])});
         bottom += height;
         sunk.left += layers.water[k];

@@ -16,6 +16,13 @@ struct MudColumn {
     Permeability mud = {};
     double viscosity = 5e-4; ///< Pa s
     double fracture_ratio = 0.9;
+    /// Sediment of a kind, up to a time, s.
+    struct Bed {
+        double until;
+        PoreLaw law;
+        Permeability mud;
+    };
+    std::vector<Bed> beds = {}; ///< one after the other; none: all is as above
 };
 
 /// A layer at the end.

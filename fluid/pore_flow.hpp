@@ -19,7 +19,8 @@ namespace listric::fluid {
 /// Two cells that water flows between.
 struct FlowLink {
     std::int32_t first, second;
-    double conductance; ///< T, m^2/s per Pa and metre of thickness
+    double conductance; ///< T, m^2/s per Pa and metre of thickness; of either sign, so long as the
+                        ///< matrix of all is not negative
 };
 
 /// Cells and how water gets from one to the other and out.

@@ -64,8 +64,10 @@ double buoyant_share(double fluid_density, double grain_density) {
     return 1.0 - fluid_density / grain_density;
 }
 
-PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity) {
-    return {sediment.surface_porosity, sediment.porosity_decay,
+PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
+                 std::int32_t stratum) {
+    const PorosityLaw pores = sediment.pores_of(stratum);
+    return {pores.surface_porosity, pores.coefficient,
             (sediment.grain_density - fluid.density) * gravity, fluid.compressibility,
             fluid.rebound};
 }
@@ -73,8 +75,14 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 PoreFluid::PoreFluid(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
                      const dem::Calendar& calendar, const WaterSurface& surface)
     : Event("pore_fluid", {fluid.interval, calendar}), fluid_(fluid), sediment_(sediment),
-      surface_(surface), law_(pore_law(fluid, sediment, gravity)),
-      fluid_weight_(fluid.density * gravity) {
+      surface_(surface), flows_(sediment.flows), fluid_weight_(fluid.density * gravity) {
+    if (flows_.empty())
+        flows_ = {fluid.flow};
+    laws_.assign(flows_.size(), pore_law(fluid, sediment, gravity, 0));
+    for (std::size_t k = 0; k < sediment.beds.list.size(); ++k) {
+        laws_[k].surface_porosity = sediment.beds.list[k].pores.surface_porosity;
+        laws_[k].decay = sediment.beds.list[k].pores.coefficient;
+    }
     for (const char* name : {Sums::came, Sums::surface, Sums::vented, Sums::eroded, Sums::left})
         memory.add<double>(name, "m^2", 0.0);
     for (const char* name : {Sums::newton, Sums::capped, Sums::enclosed})
@@ -89,7 +97,7 @@ void PoreFluid::begin(State& state) {
     state.discs.add(dem::columns::excess_pressure);
     state.discs.add(columns::pore_water);
     state.discs.add(columns::burial);
-    state.discs.add(dem::columns::wanted_porosity, law_.surface_porosity);
+    state.discs.add(dem::columns::wanted_porosity, laws_.front().surface_porosity);
     state.discs.add(columns::overpressure_ratio);
     state.discs.add(columns::darcy_x);
     state.discs.add(columns::darcy_y);
@@ -103,7 +111,6 @@ void PoreFluid::begin(State& state) {
 void PoreFluid::take_stock(State& state, const PoreCells& cells) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const auto water = state.discs.get(columns::pore_water);
-    const double fresh = law_.surface_porosity / (1.0 - law_.surface_porosity);
     double known = 0.0, came = 0.0;
     for (const std::int32_t row : cells.rows) {
         const auto i = static_cast<std::size_t>(row);
@@ -111,7 +118,8 @@ void PoreFluid::take_stock(State& state, const PoreCells& cells) {
             known += water[i];
             continue;
         }
-        water[i] = fresh * d.mass[i] / sediment_.grain_density;
+        const double porosity = law(d.stratum[i]).surface_porosity;
+        water[i] = porosity / (1.0 - porosity) * d.mass[i] / sediment_.grain_density;
         came += water[i];
     }
     memory.get<double>(Sums::eroded)[0] += remembered(Sums::left) - known;
@@ -125,66 +133,105 @@ double PoreFluid::grains_of(const WetGround& ground, Point p, double of_discs, d
     if (!surface_.ends || !(depth > 0.0))
         return grains;
     const double dry = std::clamp((p.y + depth - level) / depth, 0.0, 1.0);
-    return grains * (1.0 + dry * fluid_weight_ / law_.grain_weight);
+    return grains * (1.0 + dry * fluid_weight_ / grain_weight());
+}
+
+/// Sediment by cell.
+struct PoreFluid::Mud {
+    std::vector<const PoreLaw*> laws;
+    std::vector<double> grains, solid, conductivity, ratios, burial, porosity;
+    std::vector<FaultFactors> faults; ///< empty: none matter
+    PressureBounds bounds;
+};
+
+PoreFluid::Mud PoreFluid::mud_of(const State& state, const WetGround& ground,
+                                 const PoreCells& cells) const {
+    const double level = surface_.level.at(state);
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> of_discs =
+        grains_above(state, state.discs.get(dem::columns::porosity));
+    const bool has_faults =
+        std::ranges::any_of(flows_, [](const SedimentFlow& f) { return f.faults.matter(); });
+    Mud mud;
+    mud.burial = gathered(state, columns::burial, cells);
+    mud.porosity = gathered(state, dem::columns::wanted_porosity, cells);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const auto i = static_cast<std::size_t>(cells.rows[k]);
+        const SedimentFlow& flow = flow_of(d.stratum[i]);
+        mud.laws.push_back(&law(d.stratum[i]));
+        mud.grains.push_back(grains_of(ground, {d.x[i], d.y[i]}, of_discs[i], level));
+        mud.solid.push_back(d.mass[i] / sediment_.grain_density);
+        mud.conductivity.push_back(permeability(flow.permeability, mud.porosity[k]));
+        mud.ratios.push_back(flow.ratio);
+        if (has_faults)
+            mud.faults.push_back(flow.faults);
+        mud.bounds.highest.push_back(fluid_.fracture_ratio * grain_weight() * mud.grains[k]);
+        mud.bounds.lowest.push_back(-fluid_weight_ * std::max(0.0, level - d.y[i]));
+    }
+    return mud;
+}
+
+/// Water leaves through the stratum that is to come as through more of the cell's own mud; where it
+/// is of another bed, by as much more as that conducts less when fresh.
+void PoreFluid::cover(const State& state, std::int32_t next_stratum, PoreCells& cells) const {
+    const auto fresh = [&](std::int32_t stratum) {
+        return permeability(flow_of(stratum).permeability, law(stratum).surface_porosity);
+    };
+    const ConstDiscColumns d = disc_columns(state);
+    const double next = fresh(next_stratum);
+    for (std::size_t k = 0; k < cells.count(); ++k)
+        if (const double pending = cells.pending[k]; pending > 0.0)
+            cells.ground_distances[k] +=
+                pending * (fresh(d.stratum[static_cast<std::size_t>(cells.rows[k])]) / next - 1.0);
 }
 
 bool PoreFluid::apply(State& state, const RigidBase& base) {
-    const double level = surface_.level.at(state);
-    const PoreCells cells = pore_cells(state, base, sediment_);
+    PoreCells cells = pore_cells(state, base, sediment_);
     take_stock(state, cells);
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const WetGround ground(state, base.motion, sediment_);
-    const std::vector<double> of_discs =
-        grains_above(state, state.discs.get(dem::columns::porosity));
-    std::vector<double> grains, solid, conductivity; // by cell
-    PressureBounds bounds;
-    std::vector<double> burial = gathered(state, columns::burial, cells);
-    std::vector<double> porosity = gathered(state, dem::columns::wanted_porosity, cells);
-    for (std::size_t k = 0; k < cells.count(); ++k) {
-        const auto i = static_cast<std::size_t>(cells.rows[k]);
-        grains.push_back(grains_of(ground, {d.x[i], d.y[i]}, of_discs[i], level));
-        solid.push_back(d.mass[i] / sediment_.grain_density);
-        conductivity.push_back(permeability(fluid_.permeability, porosity[k]));
-        bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * grains[k]);
-        bounds.lowest.push_back(-fluid_weight_ * std::max(0.0, level - d.y[i]));
-    }
+    Mud mud = mud_of(state, ground, cells);
+    if (!sediment_.beds.empty())
+        cover(state, ground.next_stratum(), cells);
     const Storage storage = [&](std::size_t k, double u) {
-        const VoidRatio e = void_ratio(law_, grains[k], burial[k], u);
-        const double swelling = 1.0 + law_.compressibility * u;
-        return Stored{solid[k] * e.value * swelling,
-                      solid[k] * (e.slope * swelling + e.value * law_.compressibility)};
+        const PoreLaw& law = *mud.laws[k];
+        const VoidRatio e = void_ratio(law, mud.grains[k], mud.burial[k], u);
+        const double swelling = 1.0 + law.compressibility * u;
+        return Stored{mud.solid[k] * e.value * swelling,
+                      mud.solid[k] * (e.slope * swelling + e.value * law.compressibility)};
     };
-    const Bedding beds = bedding(state, cells, fluid_.permeability_ratio);
+    const Bedding beds = bedding(state, cells, std::move(mud.ratios));
     const FlowNetwork network =
-        flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults, beds);
+        flow_network(state, cells, mud.conductivity, fluid_.viscosity, mud.faults, beds);
     std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
     std::vector<double> water = gathered(state, columns::pore_water, cells);
     const FlowOutcome outcome =
-        flow(network, storage, bounds, schedule().seconds(applied + 1), water, u);
+        flow(network, storage, mud.bounds, schedule().seconds(applied + 1), water, u);
     if (outcome.stuck)
-        refuse(state, cells, *outcome.stuck, u[*outcome.stuck], bounds.highest[*outcome.stuck]);
+        refuse(state, cells, *outcome.stuck, u[*outcome.stuck], mud.bounds.highest[*outcome.stuck]);
     std::vector<double> ratio;
     for (std::size_t k = 0; k < cells.count(); ++k) {
-        burial[k] = std::max(burial[k], burial_under(law_, grains[k], u[k]));
-        porosity[k] = porosity_at(law_, burial[k]);
+        const PoreLaw& law = *mud.laws[k];
+        mud.burial[k] = std::max(mud.burial[k], burial_under(law, mud.grains[k], u[k]));
+        mud.porosity[k] = porosity_at(law, mud.burial[k]);
         // At the ground both are next to nothing.
         const double least =
-            d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - porosity[k]);
-        ratio.push_back(u[k] / (law_.grain_weight * std::max(grains[k], least)));
+            d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - mud.porosity[k]);
+        ratio.push_back(u[k] / (grain_weight() * std::max(mud.grains[k], least)));
     }
     std::vector<double> darcy_x, darcy_y;
     const std::vector<Point> gradients = pressure_gradients(cells, u);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const Point drives = beds.flow_of(k, gradients[k]);
-        darcy_x.push_back(-conductivity[k] / fluid_.viscosity * drives.x);
-        darcy_y.push_back(-conductivity[k] / fluid_.viscosity * drives.y);
+        darcy_x.push_back(-mud.conductivity[k] / fluid_.viscosity * drives.x);
+        darcy_y.push_back(-mud.conductivity[k] / fluid_.viscosity * drives.y);
     }
     scatter(darcy_x, cells, state, columns::darcy_x);
     scatter(darcy_y, cells, state, columns::darcy_y);
     scatter(u, cells, state, dem::columns::excess_pressure);
     scatter(water, cells, state, columns::pore_water);
-    scatter(burial, cells, state, columns::burial);
-    scatter(porosity, cells, state, dem::columns::wanted_porosity);
+    scatter(mud.burial, cells, state, columns::burial);
+    scatter(mud.porosity, cells, state, dem::columns::wanted_porosity);
     scatter(ratio, cells, state, columns::overpressure_ratio);
     memory.get<double>(Sums::surface)[0] += outcome.surface;
     memory.get<double>(Sums::vented)[0] += outcome.vented;
@@ -208,7 +255,9 @@ double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
     constexpr double almost = 1e-6; // of the time between solutions: round-off
     if (std::abs((due - stratum).m) <= almost * schedule().gap(applied + 1).m)
         return 0.0;
-    return (1.0 - law_.surface_porosity) * law_.grain_weight * std::max(0.0, cells.pending[cell]) *
+    const std::int64_t next = sediment_.deposition.nearest(stratum);
+    const double fresh = 1.0 - law(static_cast<std::int32_t>(next)).surface_porosity;
+    return fresh * grain_weight() * std::max(0.0, cells.pending[cell]) *
            cells.surface_lengths[cell];
 }
 
@@ -237,7 +286,7 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         if (cells.cell_of[i] < 0)
             continue;
         const double load = pending_load(cells, static_cast<std::size_t>(cells.cell_of[i]));
-        const double most = greatest_lift * d.mass[i] / sediment_.grain_density * law_.grain_weight;
+        const double most = greatest_lift * d.mass[i] / sediment_.grain_density * grain_weight();
         const bool flies = force[i].y - load > most;
         capped += flies;
         push_y[i] = flies ? most : force[i].y - load;

@@ -4,6 +4,7 @@
 #include "dem/event.hpp"
 #include "fluid/pore_cells.hpp"
 #include "fluid/pore_law.hpp"
+#include "fluid/pore_network.hpp"
 #include "fluid/wet_sediment.hpp"
 
 #include <optional>
@@ -16,15 +17,13 @@ namespace listric::fluid {
 /// it, and forces on the discs. Excess pressure u is pressure over that of water at rest, whose
 /// part is buoyancy: discs weigh what their grains weigh in water.
 struct PoreFluidParameters {
-    double interval = 2.5e3; ///< time between solutions, a
-    Permeability permeability = {};
-    double permeability_ratio = 1.0;  ///< along bedding over across
+    double interval = 2.5e3;          ///< time between solutions, a
+    SedimentFlow flow = {};           ///< of sediment without beds
     double density = 1030.0;          ///< kg/m^3
     double viscosity = 5e-4;          ///< Pa s
     double compressibility = 4.4e-10; ///< 1/Pa
     double rebound = 0.1;             ///< see PoreLaw
     double fracture_ratio = 0.9;      ///< greatest u over the weight of grains in water
-    FaultFactors faults = {};
     std::optional<double> level = {}; ///< of the water, above the original surface, m
     bool hydrostatic = false;         ///< buoyancy and nothing else
     bool pushes = true;               ///< u exerts forces; else it only keeps pores open
@@ -40,8 +39,9 @@ struct WaterSurface {
 /// Share of weight that is left in water.
 double buoyant_share(double fluid_density, double grain_density);
 
-/// Law of the pores in a field of gravity, m/s^2.
-PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity);
+/// Law of the pores of a stratum in a field of gravity, m/s^2.
+PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity,
+                 std::int32_t stratum = 0);
 
 /// Solves for the excess pressure and lets it act.
 ///
@@ -81,11 +81,18 @@ public:
 
     const PoreFluidParameters& parameters() const { return fluid_; }
     const WetSediment& sediment() const { return sediment_; }
-    const PoreLaw& law() const { return law_; }
+    double grain_weight() const { return laws_.front().grain_weight; } ///< as PoreLaw has it
+    const PoreLaw& law(std::int32_t stratum) const { return laws_[bed_of(stratum)]; }
+    const SedimentFlow& flow_of(std::int32_t stratum) const { return flows_[bed_of(stratum)]; }
     double fluid_weight() const { return fluid_weight_; } ///< N/m^3
 
 private:
+    struct Mud;
+
+    std::size_t bed_of(std::int32_t stratum) const { return sediment_.beds.of(stratum); }
     void take_stock(dem::State& state, const PoreCells& cells);
+    Mud mud_of(const dem::State& state, const WetGround& ground, const PoreCells& cells) const;
+    void cover(const dem::State& state, std::int32_t next_stratum, PoreCells& cells) const;
     double pending_load(const PoreCells& cells, std::size_t cell) const;
     double grains_of(const WetGround& ground, dem::Point p, double of_discs, double level) const;
     void push(dem::State& state, const dem::RigidBase& base, const PoreCells& cells);
@@ -93,8 +100,9 @@ private:
     PoreFluidParameters fluid_;
     WetSediment sediment_;
     WaterSurface surface_;
-    PoreLaw law_;
-    double fluid_weight_; ///< N/m^3
+    std::vector<PoreLaw> laws_;       ///< by bed
+    std::vector<SedimentFlow> flows_; ///< likewise
+    double fluid_weight_;             ///< N/m^3
 };
 
 } // namespace listric::fluid

@@ -19,6 +19,20 @@ struct Permeability {
     double clay_fraction = 0.4; ///< of `mudstone`: mass of particles below 2 micrometres, over all
 };
 
+/// Factors of permeability between two weakened discs, and between a weakened and a sound one.
+struct FaultFactors {
+    double along = 1.0, across = 1.0;
+
+    bool matter() const { return along != 1.0 || across != 1.0; }
+};
+
+/// How water flows through sediment of a kind.
+struct SedimentFlow {
+    Permeability permeability = {};
+    double ratio = 1.0; ///< permeability along bedding over that across
+    FaultFactors faults = {};
+};
+
 /// Permeability across bedding, m^2. Porosities below 0.005 count as that.
 double permeability(const Permeability& mud, double porosity);
 

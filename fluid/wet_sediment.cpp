@@ -10,14 +10,20 @@ using namespace dem;
 
 namespace {
 
-/// Work at the surface of the interval between two strata that holds a travel, or ends at it.
-SurfaceWork work_at(const Motion& motion, const Schedule& deposition, Travel travel) {
+/// The stratum that ends the interval that holds a travel, or ends at it.
+std::int32_t stratum_after(const Schedule& deposition, Travel travel) {
     constexpr double almost = 1e-2; // of an interval: a moment is a cycle early or late
     if (!std::isfinite(deposition.spacing()))
+        return 0;
+    const std::int64_t stratum = deposition.nearest(travel);
+    const bool is_over = travel - deposition.due(stratum) > almost * deposition.gap(stratum + 1);
+    return static_cast<std::int32_t>(is_over ? stratum + 1 : stratum);
+}
+
+/// Work at the surface in the interval that a stratum ends.
+SurfaceWork work_at(const Motion& motion, const Schedule& deposition, std::int32_t stratum) {
+    if (!std::isfinite(deposition.spacing()))
         return SurfaceWork::none;
-    std::int64_t stratum = deposition.nearest(travel);
-    if (travel - deposition.due(stratum) > almost * deposition.gap(stratum + 1))
-        ++stratum;
     return motion.surface_work(deposition.due(stratum - 1), deposition.due(stratum));
 }
 
@@ -26,8 +32,9 @@ SurfaceWork work_at(const Motion& motion, const Schedule& deposition, Travel tra
 WetGround::WetGround(const State& state, const Motion& motion, const WetSediment& sediment)
     : ground_(state),
       line_(sediment.surface.at(sediment.deposition.calendar().age(state.clock.travel))),
-      work_(work_at(motion, sediment.deposition, state.clock.travel)),
-      left_free_(left_free * state.mean_radius), fresh_solid_(1.0 - sediment.surface_porosity) {}
+      next_(stratum_after(sediment.deposition, state.clock.travel)),
+      work_(work_at(motion, sediment.deposition, next_)), left_free_(left_free * state.mean_radius),
+      fresh_solid_(1.0 - sediment.pores_of(next_).surface_porosity) {}
 
 double WetGround::pending(double x) const {
     const double height = line_.height(x) - left_free_ - ground_.height(x);

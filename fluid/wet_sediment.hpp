@@ -2,7 +2,12 @@
 
 #include "dem/base/ground_level.hpp"
 #include "dem/base/target_line.hpp"
+#include "dem/beds.hpp"
 #include "dem/event.hpp"
+#include "fluid/pore_law.hpp"
+
+#include <cstdint>
+#include <vector>
 
 namespace listric::fluid {
 
@@ -13,6 +18,12 @@ struct WetSediment {
     double grain_density = 2600.0;         ///< kg/m^3
     dem::Target surface{0.0};              ///< line that the ground is filled up and eroded down to
     dem::Schedule deposition = dem::never; ///< from stratum to stratum
+    dem::Beds beds = {};                   ///< with pores of their own; none: as above
+    std::vector<SedimentFlow> flows = {};  ///< by bed
+
+    dem::PorosityLaw pores_of(std::int32_t stratum) const {
+        return beds.law(stratum, {surface_porosity, porosity_decay});
+    }
 };
 
 /// The ground as the water feels it. Strata come in steps; sediment settles all the time. So what
@@ -31,6 +42,9 @@ public:
     /// Depth below the smooth ground of the discs and what is pending, m; negative above.
     double depth(dem::Point p) const { return ground_.depth(p) + pending(p.x); }
 
+    /// The stratum that is to come.
+    std::int32_t next_stratum() const { return next_; }
+
     /// Height of the grains above a place, m, from those of the discs above it.
     double grains(dem::Point p, double of_discs) const;
 
@@ -41,6 +55,7 @@ public:
 private:
     dem::GroundLevel ground_;
     dem::TargetLine line_;
+    std::int32_t next_;
     dem::SurfaceWork work_; ///< of the deposition that ends the present interval
     double left_free_;      ///< m
     double fresh_solid_;    ///< share of grains in what is laid down

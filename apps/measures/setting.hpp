@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/beds.hpp"
 #include "dem/calendar.hpp"
 #include "dem/clocks.hpp"
 #include "dem/motion.hpp"
@@ -17,6 +18,11 @@ struct Sediment {
     double surface_porosity = 0.0;        ///< as deposited
     double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+    dem::Beds beds = {};                  ///< with pores of their own
+
+    dem::PorosityLaw pores_of(std::int32_t stratum) const {
+        return beds.law(stratum, {surface_porosity, porosity_decay.value_or(0.0)});
+    }
 };
 
 /// A top or bottom of a layer of rock before extension.

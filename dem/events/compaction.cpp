@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace listric::dem {
 
@@ -25,9 +26,9 @@ struct Cover {
 } // namespace
 
 Compaction::Compaction(const CompactionParameters& parameters, double surface_porosity,
-                       const Calendar& calendar)
+                       const Calendar& calendar, Beds beds)
     : Event("compaction", {parameters.interval, calendar}), parameters_(parameters),
-      surface_porosity_(surface_porosity) {}
+      surface_porosity_(surface_porosity), beds_(std::move(beds)) {}
 
 void Compaction::begin(State& state) {
     state.discs.add(columns::porosity, surface_porosity_);
@@ -49,14 +50,16 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     const bool given = state.discs.has(columns::wanted_porosity);
     const auto wanted_porosity =
         given ? state.discs.get(columns::wanted_porosity) : std::span<double>{};
+    const PorosityLaw of_all{surface_porosity_, parameters_.coefficient};
     std::ranges::fill(radius_rate, 0.0);
     const auto compact = [&](std::size_t i, Cover& cover) {
         const double area = d.radius[i] * d.radius[i];
         double wanted = porosity[i];
         if (d.stratum[i] > 0) {
             const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
+            const PorosityLaw& law = beds_.law(d.stratum[i], of_all);
             wanted = given ? wanted_porosity[i]
-                           : surface_porosity_ * exponential(-parameters_.coefficient * depth);
+                           : law.surface_porosity * exponential(-law.coefficient * depth);
         }
         const bool shrinks = wanted < porosity[i];
         const double kept = shrinks ? (1.0 - porosity[i]) / (1.0 - wanted) : 1.0; // grains are kept

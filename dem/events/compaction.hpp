@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/beds.hpp"
 #include "dem/event.hpp"
 
 namespace listric::dem {
@@ -33,7 +34,7 @@ public:
     static constexpr double approach = 0.5;
 
     Compaction(const CompactionParameters& parameters, double surface_porosity,
-               const Calendar& calendar);
+               const Calendar& calendar, Beds beds = {});
 
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
@@ -41,6 +42,7 @@ public:
 private:
     CompactionParameters parameters_;
     double surface_porosity_;
+    Beds beds_; ///< with laws of their own
 };
 
 } // namespace listric::dem

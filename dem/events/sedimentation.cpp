@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace listric::dem {
 
@@ -208,6 +209,17 @@ double disc_density(const SedimentationParameters& parameters) {
            (1.0 - packing_porosity);
 }
 
+namespace {
+
+/// Gives new discs, from row `first` on, the pores of a bed, where pores are told.
+void set_pores(State& state, std::size_t first, double surface_porosity) {
+    for (const auto& column : {columns::porosity, columns::wanted_porosity})
+        if (state.discs.has(column))
+            std::ranges::fill(state.discs.get(column).subspan(first), surface_porosity);
+}
+
+} // namespace
+
 double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
                                      const Motion& motion, const Calendar& calendar, double end) {
     const Target target(parameters.level, parameters.target);
@@ -237,10 +249,10 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
 }
 
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
-                             const Calendar& calendar)
+                             const Calendar& calendar, Beds beds)
     : Event("sedimentation", {parameters.interval, calendar, InSteps::once}, Stage::deposit),
       parameters_(parameters), target_(parameters.level, parameters.target),
-      radius_ratio_(radius_ratio) {}
+      radius_ratio_(radius_ratio), beds_(std::move(beds)) {}
 
 bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
@@ -261,7 +273,10 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     if (placed.empty())
         return removed > 0.0;
 
-    const double density = disc_density(parameters_);
+    SedimentationParameters laid_down = parameters_;
+    if (!beds_.empty())
+        laid_down.surface_porosity = beds_.law(stratum, {}).surface_porosity;
+    const double density = disc_density(laid_down);
     const GroundMotion ground_motion(state);
     const std::size_t first = add_discs(state, placed.size());
     const DiscColumns d = disc_columns(state);
@@ -278,6 +293,8 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     }
     set_in_motion(state, first, ground_motion);
     state.discs.begin_rows(first);
+    if (!beds_.empty())
+        set_pores(state, first, laid_down.surface_porosity);
     sort_discs(state);
     return true;
 }

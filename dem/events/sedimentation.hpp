@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/beds.hpp"
 #include "dem/event.hpp"
 
 namespace listric::dem {
@@ -35,7 +36,7 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
 class Sedimentation : public Event {
 public:
     Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
-                  const Calendar& calendar);
+                  const Calendar& calendar, Beds beds = {});
 
     bool apply(State& state, const RigidBase& base) override;
 
@@ -43,6 +44,7 @@ private:
     SedimentationParameters parameters_;
     Target target_;
     double radius_ratio_;
+    Beds beds_;
 };
 
 } // namespace listric::dem

@@ -17,6 +17,11 @@ def layer(name="mica", material='"mica"', **keys):
     return table("[[layer]]", **{key: value for key, value in given.items() if value is not None})
 
 
+def bed(material='"mud"', **keys):
+    given = {"material": material, **keys}
+    return table("[[bed]]", **{key: value for key, value in given.items() if value is not None})
+
+
 def stage(**keys):
     return table("[[stage]]", **keys)
 
@@ -27,7 +32,7 @@ def without(text, *lines):
 
 
 def refused_scenes():
-    lis1, elastic = shipped("lis1"), shipped("lis1-elastic")
+    lis1, elastic, mud = shipped("lis1"), shipped("lis1-elastic"), shipped("lis1-mud")
     free = without(lis1, "distance_m")                      # its stages say how far the wall goes
     ground = without(shipped("inversion-lis1").partition("[[stage]]")[0]) + "[gravity]\n[bonds]\n"
     bare = ground.replace("footwall_top_m = 30000.0", "")
@@ -81,6 +86,18 @@ def refused_scenes():
         "two waters of which one falls": (without(elastic, "distance_m") + table("[pore_fluid]")
                                           + stage(distance_m=1000.0, water_level_m=-100.0)),
         "a level of no water": free + stage(distance_m=1000.0, water_level_m=-100.0),
+        "a bed of no age in between": mud + bed() + bed(),
+        "beds that cross": mud + bed(until_a=2e5) + bed(until_a=1e5) + bed(),
+        "beds that end": mud + bed(until_a=2e5) + bed(until_a=3e5),
+        "a bed of no stratum": mud + bed(until_a=2e5) + bed(until_a=201e3) + bed(),
+        "a bed of an unknown kind": mud + bed(material='"granit"'),
+        "a bed of rock": mud + bed(material='"mica"'),
+        "two laws of a bed": mud + bed(material=None, permeability_m2=1e-18, specific_surface_per_m=1e7),
+        "clay of no mudstone": mud + bed(clay_fraction=0.5),
+        "mudstone with a number": mud + bed(permeability_law='"mudstone"', permeability_m2=1e-18),
+        "laminae of nothing": mud + bed(laminae_share=0.5),
+        "laminae of no share": mud + bed(laminae='"sand"'),
+        "beds without water": lis1 + bed(),
         "water without compaction": without(lis1, "[compaction]") + table("[pore_fluid]"),
         "water without sediment": dry + table("[pore_fluid]"),
         "water of the basin on a rigid base": lis1 + table("[basin_water]"),

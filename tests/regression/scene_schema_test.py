@@ -37,12 +37,15 @@ BEYOND_A_SCHEMA = {
                                r"the density of grains|a multiple of the interval",
     "layers": r"needs (name|material|one of )|upside down|below the detachment|less than a mean disc|overlaps|"
               r"four strengths|of two layers|weakened rock cannot have|is about bonds|two a layer",
+    "beds of sediment": r"only the last bed|the last bed|beds come from the oldest|no stratum ends|two laws of one|"
+                        r"law mudstone|law kozeny_carman alone|a share of nothing|needs laminae_share|thin beds|"
+                        r"another law of permeability|a material of the bed's own",
     "old faults": r"needs points|has one point|outside of the hanging wall|shorter than its band",
     "stages": r"a stage (moves|that does)|shortening, which needs|but the wall rests|the wall comes to|net shortening|"
               r"the first stage's rate|moves what lies on it",
     "the ground": r"both shape the ground|the ground falls to the|deep, allowed: at most hanging_wall",
     "order": r"is not sorted",
-    "other files": r"no such file|has no \[bonds\]",
+    "other files": r"no such file|has no \[(bonds|pores)\]",
     "nan and inf": r"\((nan|-?inf)\)",
 }
 

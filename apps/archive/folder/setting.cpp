@@ -53,7 +53,8 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.youngest_sediment = dem::Travel(parts.youngest_sediment);
     setting.detection_circle = parts.detection_circle;
     if (const auto& s = parts.sediment)
-        setting.sediment = {s->surface, s->surface_porosity, s->disc_density, s->porosity_decay};
+        setting.sediment = {s->surface, s->surface_porosity, s->disc_density, s->porosity_decay,
+                            s->beds};
     setting.boundaries = boundaries_of(parts);
     return setting;
 }

@@ -59,7 +59,7 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
                                      static_cast<double>(number),
                                      setting.calendar.age(stratum.deposited_at),
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
-                                     setting.sediment->surface_porosity,
+                                     setting.sediment->pores_of(number).surface_porosity,
                                      static_cast<double>(stratum.ids.size())};
     return well;
 }

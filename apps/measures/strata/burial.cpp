@@ -115,10 +115,13 @@ WellRock rock_of_well(const Setting& setting, const State& state, double grain_d
         if (of == sums.end())
             continue;
         const double middle = of->second.start_x / of->second.discs;
-        const double radius = std::sqrt(d.mass[i] / (pi * setting.sediment->disc_density));
+        const Sediment& sediment = *setting.sediment;
+        const double fresh = 1.0 - sediment.pores_of(d.stratum[i]).surface_porosity;
+        const double density = sediment.disc_density * (fresh / (1.0 - sediment.surface_porosity));
+        const double radius = std::sqrt(d.mass[i] / (pi * density));
         rock[d.stratum[i]].deposited_thickness +=
             share_within(d.start_x[i], radius, middle - half, middle + half) * d.mass[i] /
-            grain_density / (1.0 - setting.sediment->surface_porosity) / (2.0 * half);
+            grain_density / fresh / (2.0 * half);
     }
     return rock;
 }

@@ -141,8 +141,8 @@ NamedNumbers measure_porosity(const State& state, const Sediment& sediment, doub
         const double grains = (1.0 - sediment.surface_porosity) * d.mass[i] /
                               (sediment.disc_density * pi * radius * radius);
         const double depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        const double expected =
-            sediment.surface_porosity * dem::exponential(-*sediment.porosity_decay * depth);
+        const dem::PorosityLaw law = sediment.pores_of(d.stratum[i]);
+        const double expected = law.surface_porosity * dem::exponential(-law.coefficient * depth);
         const double off = std::abs((1.0 - grains) / expected - 1.0);
         all += d.mass[i];
         error += d.mass[i] * off;

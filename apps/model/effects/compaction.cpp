@@ -36,9 +36,9 @@ const Effect& effect() {
             },
         .add_events =
             [](const Scene& scene, const ModelParts& parts, dem::Events& events) {
-                dem::add(events, std::make_unique<dem::Compaction>(*scene.find<P>(),
-                                                                   parts.sediment->surface_porosity,
-                                                                   make_calendar(scene)));
+                dem::add(events, std::make_unique<dem::Compaction>(
+                                     *scene.find<P>(), parts.sediment->surface_porosity,
+                                     make_calendar(scene), parts.sediment->beds));
             },
         .absence = {"compaction of sediment", "-18 % at Te 10 km"},
         .price =

@@ -24,6 +24,7 @@ namespace {
 
 using P = fluid::PoreFluidParameters;
 using fluid::FaultFactors;
+using fluid::SedimentFlow;
 
 std::vector<Parameter> parameters() {
     std::vector<Parameter> all{
@@ -52,14 +53,15 @@ std::vector<Parameter> parameters() {
          "water",
          "Lowering it vents more: in extension, 0.7 to 0.8 may be nearer to horizontal stress.",
          between(0.7, 0.9)},
-        {"permeability_ratio", at<&P::permeability_ratio>, "", between(0.1, 1000), "",
+        {"permeability_ratio", at<&P::flow, &SedimentFlow::ratio>, "", between(0.1, 1000), "",
          "permeability along bedding over that across it, which is `permeability_m2`",
          "Raising it drains a section to its sides. Beds are turned where they lie.",
          between(1, 10)},
-        {"fault_along", at<&P::faults, &FaultFactors::along>, "", between(1e-6, 1e6), "",
-         "permeability between weakened discs over that of sound sediment",
+        {"fault_along", at<&P::flow, &SedimentFlow::faults, &FaultFactors::along>, "",
+         between(1e-6, 1e6), "", "permeability between weakened discs over that of sound sediment",
          "Raising it makes faults in sediment conduits."},
-        {"fault_across", at<&P::faults, &FaultFactors::across>, "", between(1e-6, 1e6), "",
+        {"fault_across", at<&P::flow, &SedimentFlow::faults, &FaultFactors::across>, "",
+         between(1e-6, 1e6), "",
          "permeability between a weakened and a sound disc over that of sound sediment",
          "Lowering it makes faults in sediment seals."},
         {"level_m", at<&P::level>, "m", ranges::height, "",
@@ -75,7 +77,7 @@ std::vector<Parameter> parameters() {
          "false keeps pores open by the same pressures, but lets contacts carry all weight: a "
          "control."},
     };
-    const auto permeability = permeability_parameters<&P::permeability>();
+    const auto permeability = permeability_parameters<&P::flow, &SedimentFlow::permeability>();
     all.insert(all.begin() + 1, permeability.begin(), permeability.end());
     return all;
 }
@@ -85,11 +87,23 @@ fluid::WetSediment wet_sediment(const ModelParts& parts, const dem::Calendar& ca
             *parts.sediment->porosity_decay,
             parts.sediment->grain_density,
             parts.sediment->surface,
-            {parts.sediment->deposition_interval, calendar, dem::InSteps::once}};
+            {parts.sediment->deposition_interval, calendar, dem::InSteps::once},
+            parts.sediment->beds,
+            parts.sediment->flows};
 }
 
 fluid::MudColumn mud_column(const P& p, const fluid::WetSediment& sediment, double gravity) {
-    return {fluid::pore_law(p, sediment, gravity), p.permeability, p.viscosity, p.fracture_ratio};
+    fluid::MudColumn column{fluid::pore_law(p, sediment, gravity), p.flow.permeability, p.viscosity,
+                            p.fracture_ratio};
+    const dem::Calendar& calendar = sediment.deposition.calendar();
+    for (std::size_t k = 0; k < sediment.beds.list.size(); ++k) {
+        const dem::Bed& bed = sediment.beds.list[k];
+        column.beds.push_back({dem::Schedule(bed.until, calendar.rate()).seconds(1), column.law,
+                               sediment.flows[k].permeability});
+        column.beds.back().law.surface_porosity = bed.pores.surface_porosity;
+        column.beds.back().law.decay = bed.pores.coefficient;
+    }
+    return column;
 }
 
 /// The water's level through the run: a stage's is reached evenly, at its end.
@@ -115,6 +129,7 @@ WaterFacts water_facts(const Scene& scene, double start) {
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
+    parts.sediment->flow = scene.find<P>()->flow;
     parts.water = water_facts(scene, scene.find<P>()->level.value_or(parts.sediment->level));
     parts.physics.gravity *=
         fluid::buoyant_share(scene.find<P>()->density, parts.sediment->grain_density);
@@ -211,14 +226,40 @@ double seconds_of_extension(const Scene& scene) {
     return dem::Schedule{travel / scene.extension.rate, scene.extension.rate}.seconds(1);
 }
 
+/// What water does to a base that bends, at the start, and what is dry; empty: it does nothing.
+std::string explain_water_on_base(const Scene& scene, const ModelParts& parts) {
+    if (!bending_base(scene))
+        return "";
+    const dem::Chain base = dem::base_line(make_rigid_base(scene), 0.0);
+    const auto level_after = [&](double metres) {
+        const dem::WaterLevel& level = parts.water->level;
+        return level.heights.at(level.calendar.age(dem::Travel(metres))).height(0.0);
+    };
+    const double level = level_after(0.0), last = level_after(greatest_extension(scene));
+    constexpr int columns = 1000;
+    const double width = scene.hanging_wall.length / columns;
+    double area = 0.0;
+    for (int k = 0; k < columns; ++k)
+        area += width * std::max(0.0, level - dem::height_at(base, (k + 0.5) * width));
+    const double lowest = std::min(level, last);
+    return fmt::format(
+        "  water presses on the base with {:.3g} N/m at the start, which is rest; the base bears "
+        "what that changes. Level {:g} m{}; {}\n",
+        area * scene.find<P>()->density * parts.gravity, level,
+        parts.water->moves ? fmt::format(", {:g} m in the end", last) : "",
+        lowest < 0.0
+            ? fmt::format("the uppermost {:g} m of rock get dry and weigh in full", -lowest)
+            : "dry is what lies above it");
+}
+
 /// Pressure and porosity of a column of this mud at the depocentre.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const ModelParts parts = make_parts(scene);
     if (p.hydrostatic)
         return fmt::format(
-            "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
-            parts.physics.gravity / parts.gravity);
+            "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n{}",
+            parts.physics.gravity / parts.gravity, explain_water_on_base(scene, parts));
     const fluid::MudColumn column =
         mud_column(p, wet_sediment(parts, make_calendar(scene)), parts.gravity);
     // A floor below a steep detachment sinks by nine tenths of the extension.
@@ -239,6 +280,10 @@ std::string explain(const Scene& scene, EffectList) {
                                   sunk.at(at).overpressure_ratio, at / 1e3, at == shallow ? 0 : 1);
     const double weight = column.law.grain_weight * sunk.at(half).grains_above;
     const double at_rest = p.density * parts.gravity * half;
+    const std::string beside =
+        column.beds.empty()
+            ? fmt::format(", {:.3f} where water is at rest", fluid::porosity_at(column.law, half))
+            : "";
     return fmt::format(
         "pore fluid\n"
         "  discs weigh {:.3f} of their weight in air, rock as sediment; pressure every {:g} a\n"
@@ -246,15 +291,16 @@ std::string explain(const Scene& scene, EffectList) {
         "{:.1f} "
         "km that is a pore pressure of {:.3f} of the weight of grains and water\n"
         "  a floor that sinks by {:.1f} km has Gibson's number {:.2g}: {}\n"
-        "  overpressure ratio of a column of this mud: {}; "
-        "porosity {:.3f} there, {:.3f} where water is at rest\n",
+        "  overpressure ratio of a column of {}: {}; "
+        "porosity {:.3f} there{}\n{}",
         parts.physics.gravity / parts.gravity, p.interval, p.fracture_ratio, half / 1e3,
         (at_rest + p.fracture_ratio * weight) / (at_rest + weight), depth / 1e3, gibson,
         gibson < fluid::gibson_at_rest
             ? "water is nearly at rest; hydrostatic = true has it at rest at no cost"
         : gibson > fluid::gibson_undrained ? "hardly any water leaves but through fractures"
                                            : "water leaves while mud is buried",
-        ratios, sunk.at(half).porosity, fluid::porosity_at(column.law, half));
+        column.beds.empty() ? "this mud" : "these beds", ratios, sunk.at(half).porosity, beside,
+        explain_water_on_base(scene, parts));
 }
 
 } // namespace
@@ -274,7 +320,7 @@ const Effect& effect() {
         .parameters = parameters(),
         .rock = rock_of_sediment([](Scene& scene, const RockMaterial& rock) {
             if (rock.pores)
-                scene.find<P>()->permeability = rock.pores->permeability;
+                scene.find<P>()->flow.permeability = rock.pores->permeability;
         }),
         .needs = {"gravity", "sedimentation", "compaction"},
         .in_genesis = true,

@@ -41,9 +41,15 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         disc.excess_pressure = pressure[i];
         disc.weight = ratio[i] != 0.0
                           ? pressure[i] / ratio[i]
-                          : ground.grains({d.x[i], d.y[i]}, grains[i]) * fluid->law().grain_weight;
+                          : ground.grains({d.x[i], d.y[i]}, grains[i]) * fluid->grain_weight();
         disc.porosity = porosity[i];
-        disc.normal_porosity = fluid::porosity_at(fluid->law(), disc.depth);
+        const fluid::PoreLaw& law = fluid->law(d.stratum[i]);
+        disc.normal_porosity = fluid::porosity_at(
+            law, fluid->sediment().beds.empty()
+                     ? disc.depth
+                     : fluid::equivalent_depth(law, disc.weight / law.grain_weight));
+        disc.permeability =
+            fluid::permeability(fluid->flow_of(d.stratum[i]).permeability, porosity[i]);
     }
     return wet;
 }
@@ -72,6 +78,16 @@ template <auto number> double mean_of(const Bin& bin) {
         volume += disc.volume;
     }
     return sum / volume;
+}
+
+/// Across the beds of a bin, m^2.
+double harmonic_permeability(const Bin& bin) {
+    double resistance = 0.0, volume = 0.0;
+    for (const WetDisc& disc : bin) {
+        resistance += disc.volume / disc.permeability;
+        volume += disc.volume;
+    }
+    return volume / resistance;
 }
 
 std::vector<Bin> bins_by_depth(const Observation& now, double x) {
@@ -113,7 +129,9 @@ std::vector<WellPoint> well_at(const Observation& now, double x) {
         p.ratio = p.excess / weight;
         p.porosity = mean_of<&WetDisc::porosity>(bin);
         p.normal_porosity = mean_of<&WetDisc::normal_porosity>(bin);
-        p.permeability = fluid::permeability(fluid->parameters().permeability, p.porosity);
+        p.permeability = fluid->sediment().beds.empty()
+                             ? fluid::permeability(fluid->flow_of(0).permeability, p.porosity)
+                             : harmonic_permeability(bin);
         p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
     }
     return points;

@@ -20,6 +20,7 @@ struct WetDisc {
     double excess_pressure = 0.0; ///< Pa
     double weight = 0.0;          ///< of grains in water above, at the last solution, Pa
     double porosity = 0.0, normal_porosity = 0.0;
+    double permeability = 0.0; ///< across bedding, m^2
 
     double ratio() const { return weight > 0.0 ? excess_pressure / weight : 0.0; }
 };

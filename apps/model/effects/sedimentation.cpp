@@ -53,8 +53,9 @@ std::vector<Parameter> parameters() {
 /// The event that deposits and, where sediment weighs, the one that looks at what carries it.
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const double rate = scene.extension.rate;
-    dem::add(events, std::make_unique<dem::Sedimentation>(
-                         *scene.find<P>(), scene.hanging_wall.radius_ratio, make_calendar(scene)));
+    dem::add(events,
+             std::make_unique<dem::Sedimentation>(*scene.find<P>(), scene.hanging_wall.radius_ratio,
+                                                  make_calendar(scene), parts.sediment->beds));
     if (parts.physics.gravity <= 0.0)
         return;
     std::optional<double> between_changes; // of porosity, m of travel
@@ -266,7 +267,10 @@ const Effect& effect() {
                                   disc_density(p),
                                   {},
                                   0.0,
-                                  p.interval};
+                                  p.interval,
+                                  {},
+                                  {},
+                                  {}};
             },
         .add_events = add_events,
         .absence = {"sediment in the basin", "-61 % where a saturated fill comes, at Te 10 km"},

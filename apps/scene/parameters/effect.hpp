@@ -7,10 +7,12 @@
 #include "apps/support/measure.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/base/water_level.hpp"
+#include "dem/beds.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/genesis/genesis.hpp"
 #include "dem/numbers/units.hpp"
+#include "fluid/pore_law.hpp"
 
 #include <any>
 #include <filesystem>
@@ -90,14 +92,17 @@ constexpr RockSource rock_of_sediment(void (*take)(Scene& scene, const RockMater
 
 /// Sediment as effects describe it to each other and to measures.
 struct SedimentFacts {
-    double level = 0.0;                   ///< m, y up
-    dem::Target surface{0.0};             ///< line that the surface is adapted to
-    double surface_porosity = 0.0;        ///< as deposited
-    double grain_density = 0.0;           ///< kg/m3
-    double disc_density = 0.0;            ///< as deposited, kg/m3
-    std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
-    double porosity_interval = 0.0;       ///< from change to change of porosity, a
-    double deposition_interval = 0.0;     ///< from stratum to stratum, a
+    double level = 0.0;                          ///< m, y up
+    dem::Target surface{0.0};                    ///< line that the surface is adapted to
+    double surface_porosity = 0.0;               ///< as deposited
+    double grain_density = 0.0;                  ///< kg/m3
+    double disc_density = 0.0;                   ///< as deposited, kg/m3
+    std::optional<double> porosity_decay;        ///< with depth, 1/m; none: porosity stays
+    double porosity_interval = 0.0;              ///< from change to change of porosity, a
+    double deposition_interval = 0.0;            ///< from stratum to stratum, a
+    fluid::SedimentFlow flow = {};               ///< of water through it
+    dem::Beds beds = {};                         ///< with pores of their own
+    std::vector<fluid::SedimentFlow> flows = {}; ///< by bed
 };
 
 /// Water in the pores of all discs, sediment and rock, as effects describe it to each other.

@@ -156,6 +156,8 @@ std::vector<std::string> names_of(Chosen run) {
 std::string tables_of(std::string_view effect) {
     if (effect == "layer")
         return R"([{name="mica", material="mica", top_m=400.0, thickness_m=300.0}])";
+    if (effect == "bed")
+        return R"([{material="mud", until_a=6e3}, {material="sand", permeability_ratio=3.0}])";
     if (effect == "old_fault")
         return "[{points=[[2000.0, 300.0], [2400.0, 1200.0]]}]";
     if (effect == "stage")

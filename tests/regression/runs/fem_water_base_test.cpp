@@ -1,20 +1,31 @@
 // Water in the pores of all discs on a base that bends: what the base bears, and what a scene must
 // not ask of it.
 
+#include "apps/commands/explain.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/files/file.hpp"
 #include "tests/message_of.hpp"
+#include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace listric::fem_water_base_test {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace support;
 using testing::AllOf;
@@ -88,13 +99,13 @@ TEST_F(WaterOnABase, BearsTheWeightOfRockAndWaterHoweverItIsRun) {
     EXPECT_EQ(run("parts", {}, {}, true)["state_hash"], once["state_hash"]);
 }
 
-/// Water at rest on a base that hardly moves weighs nothing beyond the start's; it falls by 100 m
+/// Water at rest on a base that hardly moves weighs nothing beyond the start's; it falls by 1 km
 /// and comes back.
 TEST_F(WaterOnABase, DryGroundWeighsInFull) {
     const std::vector<std::string> rest{"pore_fluid.hydrostatic=true"};
     const json wet = run("wet", rest);
     std::vector<std::string> falls = rest;
-    falls.push_back("stage=[{distance_m=50.0, water_level_m=-100.0}, {distance_m=50.0, "
+    falls.push_back("stage=[{distance_m=50.0, water_level_m=-1000.0}, {distance_m=50.0, "
                     "water_level_m=0.0}]");
     run("low", falls, 50.0);
     const auto pushed = [&](const std::string& name) {
@@ -104,16 +115,62 @@ TEST_F(WaterOnABase, DryGroundWeighsInFull) {
             sum -= push;
         return sum;
     };
-    // 100 m of some 3 to 4 km of ground, without pores.
+    // 1 km of some 3 to 4 km of ground, without pores.
     const double at_rest = pushed("wet"), low = pushed("low");
-    EXPECT_GT(low, at_rest + 100.0 * 3000.0 * 0.7 * 1030.0 * 9.81);
-    EXPECT_LT(low, at_rest + 100.0 * 5000.0 * 1030.0 * 9.81);
+    EXPECT_GT(low, at_rest + 1000.0 * 3000.0 * 0.7 * 1030.0 * 9.81);
+    EXPECT_LT(low, at_rest + 1000.0 * 5000.0 * 1030.0 * 9.81);
     const json back = run("low", falls, {}, true);
     EXPECT_LT(std::abs(back["water_force_error"].get<double>()), 1e-9);
     EXPECT_NEAR(pushed("low"), at_rest, 0.05 * low); // the ground's roughness by packing
     EXPECT_NEAR(back["water_load_n_per_m"].get<double>(), wet["water_load_n_per_m"].get<double>(),
-                0.02 * 1030.0 * 9.81 * 100.0 * 4000.0);
+                0.02 * 1030.0 * 9.81 * 1000.0 * 4000.0);
     EXPECT_EQ(run("straight", falls)["state_hash"], back["state_hash"]);
+}
+
+TEST_F(WaterOnABase, GoesOnAfterAKillWhileTheLevelFalls) {
+    const std::vector<std::string> falls{
+        "output.interval_m=6.25",
+        "stage=[{distance_m=50.0, water_level_m=-1000.0}, {distance_m=50.0, water_level_m=0.0}]"};
+    const json once = run("once", falls);
+    const fs::path file = folder / "falls.toml";
+    std::ofstream(file) << scene;
+    std::vector<std::string> words{"run",
+                                   file.string(),
+                                   "--quiet",
+                                   "--threads",
+                                   "1",
+                                   "--output",
+                                   (folder / "killed").string()};
+    for (const std::string& set : falls)
+        words.insert(words.end(), {"--set", set});
+    const auto is_there = [&] {
+        return fs::exists(folder / "killed/snapshots") &&
+               std::ranges::any_of(list_snapshots(folder / "killed"), [](const fs::path& path) {
+                   return snapshot_extension(path) > 20.0;
+               });
+    };
+    const Program program(folder, words);
+    while (program.runs() && !is_there())
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    program.send(SIGKILL);
+    ASSERT_EQ(program.wait().code, -SIGKILL) << "ended before it was killed";
+    words.emplace_back("--resume");
+    EXPECT_EQ(Program(folder, words).wait().code, 0);
+    EXPECT_EQ(json::parse(contents(folder / "killed/summary.json"))["state_hash"],
+              once["state_hash"]);
+}
+
+TEST_F(WaterOnABase, IsExplained) {
+    // 1030 kg/m^3 times 9.81 m/s^2 times the area above the detachment.
+    EXPECT_THAT(explain(SceneRuns::load(scene), 1, program_effects()),
+                AllOf(HasSubstr("water presses on the base with "),
+                      HasSubstr("dry is what lies above it")));
+    EXPECT_THAT(
+        explain(SceneRuns::load(scene, {"pore_fluid.hydrostatic=true", "stage=[{distance_m=100.0, "
+                                                                       "water_level_m=-300.0}]"}),
+                1, program_effects()),
+        AllOf(HasSubstr("Level 0 m, -300 m in the end"),
+              HasSubstr("the uppermost 300 m of rock get dry")));
 }
 
 TEST_F(WaterOnABase, RefusesTwoWaters) {

@@ -17,6 +17,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -116,6 +117,51 @@ TEST_F(PoreFluidRun, GoesOnBetweenTwoStrata) {
         o.resume = true;
         EXPECT_EQ(run(with(set), o)["state_hash"], once["state_hash"]) << until;
     }
+}
+
+TEST_F(PoreFluidRun, BedsGoOnFromAnyMoment) {
+    const std::vector<std::string> set{
+        "pore_fluid.permeability_m2=1e-19",
+        R"(bed=[{material="mud", until_a=6e3}, {material="sand", permeability_ratio=5.0, until_a=12e3},)"
+        R"( {surface_porosity=0.6, specific_surface_per_m=1e8, fault_across=0.1}])"};
+    const auto once = run_with("once", set);
+    EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-12);
+    EXPECT_EQ(run_with("threads", set, 3)["state_hash"], once["state_hash"]);
+    RunOptions o = options("parts");
+    for (const double until : {55.0, 112.5}) { // within the first bed, and the second
+        o.force = true;
+        o.resume = false;
+        o.until = until;
+        run_scene(with(set), o);
+        o.until = {};
+        o.force = false;
+        o.resume = true;
+        EXPECT_EQ(run(with(set), o)["state_hash"], once["state_hash"]) << until;
+    }
+    // Fresh discs have the pores of their bed.
+    const State state = last_state("once");
+    const ConstDiscColumns d = disc_columns(state);
+    const auto porosity = state.discs.get<double>("porosity");
+    std::map<int, double> highest;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] > 0)
+            highest[d.stratum[i]] = std::max(highest[d.stratum[i]], porosity[i]);
+    std::set<double> told;
+    for (const auto& [stratum, most] : highest) {
+        const double fresh = stratum <= 2 ? 0.63 : stratum <= 4 ? 0.49 : 0.6;
+        EXPECT_LE(most, fresh) << stratum;
+        EXPECT_GT(most, fresh - 0.08) << stratum;
+        told.insert(fresh);
+    }
+    EXPECT_GE(told.size(), 2u);
+}
+
+TEST_F(PoreFluidRun, BedsOfOneKindChangeNothing) {
+    // Beds that say what all sediment is are no change.
+    const std::vector<std::string> mud{"pore_fluid.permeability_m2=1e-19"};
+    std::vector<std::string> beds = mud;
+    beds.emplace_back("bed=[{until_a=6e3}, {}]");
+    EXPECT_EQ(run_with("beds", beds)["state_hash"], run_with("none", mud)["state_hash"]);
 }
 
 TEST_F(PoreFluidRun, DrainsAlongTheBeds) {

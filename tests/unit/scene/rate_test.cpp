@@ -133,6 +133,7 @@ TEST_F(RateFiles, ATemplateShowsTheValuesOfTheScenesRate) {
 const std::set<std::string> means_time{
     "stage.pause_a",                     // a span that the scene is about
     "stage.step_a",                      // and a part of it
+    "bed.until_a",                       // an age that the scene is about
     "fault_weakening.heal_after_a",      // off; one who states it means years
     "fault_weakening.strain_rate_per_s", // off; the paper's other definition of a fault
 };

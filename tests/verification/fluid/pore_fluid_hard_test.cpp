@@ -46,7 +46,7 @@ std::vector<Case> hard_cases() {
         {"at once"},
         {"weak zone",
          [](PoreFluidParameters& p) {
-             p.faults = {1e6, 1e-6};
+             p.flow.faults = {1e6, 1e-6};
          },
          [](State& state) {
              const DiscColumns d = disc_columns(state);
@@ -81,7 +81,7 @@ TEST(PoreFluidHard, ConvergesAndKeepsItsWater) {
     for (const Case& c : hard_cases())
         for (const double permeability : {1e-12, 1e-14, 1e-16, 1e-17, 1e-18, 1e-19, 1e-20, 1e-22}) {
             PoreFluidParameters p;
-            p.permeability.at_fifth = permeability;
+            p.flow.permeability.at_fifth = permeability;
             if (c.with)
                 c.with(p);
             State state = fresh_mud();

@@ -264,7 +264,7 @@ private:
     static PoreFluidParameters fluid(double permeability) {
         PoreFluidParameters p;
         p.interval = interval;
-        p.permeability.at_fifth = permeability;
+        p.flow.permeability.at_fifth = permeability;
         return p;
     }
 

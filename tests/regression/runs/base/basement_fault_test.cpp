@@ -206,6 +206,19 @@ TEST_F(BasementFault, RefusesWhatCannotBeCombined) {
         HasSubstr("extension.distance_m: is 70 beside base_motion.fault_slip_m = 60"));
 }
 
+TEST_F(BasementFault, SedimentAboveItHasPoreWater) {
+    const Scene scene = load(box + sand + fault("normal", "60.0", "240.0") +
+                                 "[sedimentation]\ninterval_a = 5000.0\n[compaction]\n"
+                                 "[pore_fluid]\npermeability_m2 = 1e-21\n",
+                             {"extension.speed_m_per_s=4.0"});
+    const auto whole = run(scene, "whole");
+    EXPECT_GT(whole["deposited_fraction"], 0.01);
+    EXPECT_GT(whole["overpressure_ratio_mean"], 0.1);
+    EXPECT_LT(std::abs(whole["water_error"].get<double>()), 1e-12);
+    run(scene, "parts", 150.0);
+    EXPECT_EQ(run(scene, "parts", {}, true)["state_hash"], whole["state_hash"]);
+}
+
 TEST_F(BasementFault, ShippedSceneBreaksTheSurface) {
     SceneRequest request;
     request.scene = "basement-fault";
