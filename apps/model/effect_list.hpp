@@ -16,6 +16,7 @@
     EFFECT(sedimentation) \
     EFFECT(pore_fluid) \
     EFFECT(compaction) \
+    EFFECT(heat) \
     EFFECT(energy) \
     EFFECT(elastic_base) \
     EFFECT(lower_crust_thinning) \

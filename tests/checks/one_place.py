@@ -41,6 +41,7 @@ EFFECTS = (
     Effect("sedimentation", "SedimentationParameters"),
     Effect("pore_fluid", "PoreFluidParameters"),
     Effect("compaction", "CompactionParameters"),
+    Effect("heat", "HeatParameters", trade=True),
     Effect("energy", "EnergyParameters", trade=True),
     Effect("elastic_base", "ElasticBaseParameters"),
     Effect("lower_crust_thinning", "LowerCrustThinningParameters"),

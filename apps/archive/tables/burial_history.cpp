@@ -88,8 +88,9 @@ std::vector<WellPlace> well_places(const Observation& now, const std::vector<dou
         places.push_back(well_place(x));
     if (!places.empty())
         return places;
-    const MeasuredWell* const well = measured_well(now.scene);
-    places = well ? well->places(now) : std::vector<WellPlace>();
+    for (const MeasuredWell* const well : measured_wells(now.scene))
+        if (places.empty())
+            places = well->places(now);
     return places.empty() && now.parts.sediment ? places_by_thickness(now) : places;
 }
 
