@@ -91,13 +91,14 @@ double uplift_at(const State& state, double x) {
     return nodes.uy[k - 1] + share * (nodes.uy[k] - nodes.uy[k - 1]);
 }
 
-GroundLine ground_line(const State& state, const RigidBase& base, const GroundBeside& beside) {
+GroundLine ground_line(const State& state, const RigidBase& base, const GroundBeside& beside,
+                       double least_age) {
     const double step = 2.0 * state.mean_radius;
     const double wall = beside.wall_x + wall_way(base, state.clock.extension.m);
     const std::vector<Point> trace = base_points(state, base, step);
     const double left = trace.front().x;
     std::vector<Point> points{{left, beside.left + uplift_at(state, left)}};
-    const GroundLevel level(state);
+    const GroundLevel level(state, least_age);
     std::size_t next = 0;
     const auto base_height = [&](double x) {
         while (next + 1 < trace.size() && trace[next + 1].x <= x)

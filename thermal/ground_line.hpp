@@ -35,8 +35,9 @@ struct GroundBeside {
 };
 
 /// The ground of the discs, of the base where it is bare, and of the rock on both sides.
+/// @param least_age  of sediment that counts: travel since it was laid down, m
 GroundLine ground_line(const dem::State& state, const dem::RigidBase& base,
-                       const GroundBeside& beside);
+                       const GroundBeside& beside, double least_age = 0.0);
 
 /// What the discs rest on, as it stands, as a line of points not further apart than `step`, m.
 std::vector<dem::Point> base_points(const dem::State& state, const dem::RigidBase& base,

@@ -55,10 +55,12 @@ HeatCells Heat::cells(const State& state) const {
     const bool compacts = state.discs.has(dem::columns::porosity);
     const bool layered = state.discs.has(dem::columns::layer);
     const auto temperature = state.discs.get(columns::temperature);
+    const auto known = state.discs.get(columns::heat_capacity);
     HeatCells all;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         all.sites.add({d.x[i], d.y[i]}, radius[i], 5.0 * state.mean_radius);
         all.temperature.push_back(temperature[i]);
+        all.is_new.push_back(known[i] < 0.0);
         if (d.stratum[i] > 0) {
             const double porosity =
                 compacts ? state.discs.get(dem::columns::porosity)[i] : setting_.surface_porosity;
@@ -67,14 +69,12 @@ HeatCells Heat::cells(const State& state) const {
             all.capacity.push_back(grains *
                                    (grain_capacity + water_capacity * porosity / (1.0 - porosity)));
             all.production.push_back(grains * p_.heat_production);
-            all.area.push_back(grains / (1.0 - porosity));
         } else {
             const std::size_t layer = layered ? state.discs.get(dem::columns::layer)[i] : 0;
             const double area = d.mass[i] / setting_.rock_densities[layer];
             all.conductivity.push_back(p_.conductivity);
             all.capacity.push_back(area * crust_capacity);
             all.production.push_back(area * p_.heat_production);
-            all.area.push_back(area);
         }
     }
     using C = HeatPoints::Columns;
@@ -85,12 +85,19 @@ HeatCells Heat::cells(const State& state) const {
     for (std::size_t k = 0; k < x.size(); ++k) {
         all.sites.add({x[k], y[k]}, state.mean_radius, reach[k]);
         all.temperature.push_back(its_temperature[k]);
+        all.is_new.push_back(false);
         all.conductivity.push_back(crust[k] ? p_.conductivity : p_.mantle_conductivity);
         all.capacity.push_back(area[k] * (crust[k] ? crust_capacity : mantle_capacity));
-        all.area.push_back(area[k]);
         all.production.push_back(crust[k] ? area[k] * p_.heat_production : 0.0);
     }
     return all;
+}
+
+GroundLine Heat::solved_ground(const State& state, const RigidBase& base) const {
+    constexpr double almost = 0.01; // of the time between solutions: a moment is a cycle early
+    const double since = state.clock.travel.m - schedule().due(applied).m;
+    return ground_line(state, base, setting_.beside,
+                       std::max(0.0, since) + almost * schedule().gap(applied + 1).m);
 }
 
 bool Heat::start(State& state, const RigidBase& base) {
@@ -192,15 +199,18 @@ double Heat::balance_error() const {
     return terms > 0.0 ? missing / terms : 0.0;
 }
 
-std::vector<double> Heat::anomaly(const State& state, std::span<const double> edges) const {
+std::vector<double> Heat::anomaly(const State& state, const RigidBase& base,
+                                  std::span<const double> edges) const {
     std::vector<double> sums(edges.empty() ? 0 : edges.size() - 1, 0.0);
     const HeatCells all = cells(state);
+    const FacetedCells faceted =
+        site_cells(all.sites, points_.ends(), ground_line(state, base, setting_.beside));
     for (std::size_t i = 0; i < all.sites.count(); ++i) {
         const auto after = std::ranges::upper_bound(edges, all.sites.x[i]);
         if (after == edges.begin() || after == edges.end())
             continue;
         sums[static_cast<std::size_t>(after - edges.begin()) - 1] +=
-            all.area[i] * (all.temperature[i] - geotherm_.at(-all.sites.y[i]));
+            faceted.cells[i].area * (all.temperature[i] - geotherm_.at(-all.sites.y[i]));
     }
     return sums;
 }
@@ -208,9 +218,11 @@ std::vector<double> Heat::anomaly(const State& state, std::span<const double> ed
 SurfaceHeatFlow::SurfaceHeatFlow(const Heat& heat, const State& state, const RigidBase& base)
     : ground_temperature_(heat.parameters().surface_temperature) {
     constexpr double deepest = 6e3; // m: where points are coarse none is nearer
-    const GroundLine ground = ground_line(state, base, heat.setting().beside);
+    const GroundLine ground = heat.solved_ground(state, base);
     const HeatCells all = heat.cells(state);
     for (std::size_t i = 0; i < all.sites.count(); ++i) {
+        if (all.is_new[i])
+            continue;
         const double depth = ground.depth({all.sites.x[i], all.sites.y[i]});
         if (depth > 0.0 && depth <= deepest)
             sites_.push_back(

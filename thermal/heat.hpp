@@ -12,9 +12,9 @@ namespace listric::thermal {
 /// What conducts heat: the discs by row, then the points.
 struct HeatCells {
     Sites sites;
+    std::vector<bool> is_new;                 ///< came since the last solution
     std::vector<double> conductivity;         ///< W/m/K
     std::vector<double> capacity, production; ///< J/m/K; W/m
-    std::vector<double> area;                 ///< that it stands for, m^2
     std::vector<double> temperature;          ///< degrees Celsius
 };
 
@@ -57,9 +57,14 @@ public:
     /// All that conducts now.
     HeatCells cells(const dem::State& state) const;
 
+    /// The ground of the last solution, below the sediment that has come since.
+    GroundLine solved_ground(const dem::State& state, const dem::RigidBase& base) const;
+
     /// Integral of temperature less that of the start at the same depth over columns between
-    /// places that ascend, K m^2: what thermal expansion loads a base with.
-    std::vector<double> anomaly(const dem::State& state, std::span<const double> edges) const;
+    /// places that ascend, by the cells whose sites lie there, K m^2: what thermal expansion loads
+    /// a base with.
+    std::vector<double> anomaly(const dem::State& state, const dem::RigidBase& base,
+                                std::span<const double> edges) const;
 
 private:
     void book_discs(dem::State& state, const HeatCells& cells);

@@ -257,15 +257,25 @@ void HeatPoints::drop() {
 }
 
 /// Adds points where rock has risen from the section's floor.
-void HeatPoints::fill_floor(const State& state) {
+/// @param stretch  greatest factor of it
+void HeatPoints::fill_floor(const State& state, double stretch) {
     const double columns = std::ceil((ends_.right - ends_.left) / widest);
     const double width = (ends_.right - ends_.left) / columns;
-    std::vector<double> lowest(static_cast<std::size_t>(columns), 0.0);
+    std::vector<double> own(static_cast<std::size_t>(columns), 0.0);
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
     for (std::size_t k = 0; k < x.size(); ++k) {
-        double& least = lowest[static_cast<std::size_t>(
+        double& least = own[static_cast<std::size_t>(
             std::clamp((x[k] - ends_.left) / width, 0.0, columns - 1.0))];
         least = std::min(least, y[k]);
+    }
+    // Stretched points are wider apart than columns.
+    const auto reach = static_cast<std::size_t>(std::ceil(0.5 * stretch));
+    std::vector<double> lowest;
+    for (std::size_t column = 0; column < own.size(); ++column) {
+        const std::size_t end = std::min(column + reach + 1, own.size());
+        lowest.push_back(*std::min_element(
+            own.begin() + static_cast<std::ptrdiff_t>(column - std::min(column, reach)),
+            own.begin() + static_cast<std::ptrdiff_t>(end)));
     }
     for (std::size_t column = 0; column < lowest.size(); ++column)
         while (lowest[column] - ends_.floor > 1.5 * widest) {
@@ -285,7 +295,10 @@ bool HeatPoints::apply(State& state, const RigidBase& base) {
     const double now = base.motion.position(schedule().due(applied + 1)).m;
     move(state, base_depth(base), before, now, wall_way(base, now) - wall_way(base, before));
     drop();
-    fill_floor(state);
+    if (setting_.shear) {
+        const double width = std::min(setting_.shear->crust_width, setting_.shear->mantle_width);
+        fill_floor(state, (width + std::max(before, now)) / width);
+    }
     return false;
 }
 

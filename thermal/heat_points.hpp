@@ -74,7 +74,7 @@ private:
     void lay_out(const dem::State& state, const dem::RigidBase& base);
     void move(const dem::State& state, double depth, double before, double now, double way);
     void drop();
-    void fill_floor(const dem::State& state);
+    void fill_floor(const dem::State& state, double stretch);
     struct Point;
     void add(const dem::State& state, const Point& point);
 

@@ -10,7 +10,7 @@ namespace listric::thermal {
 namespace {
 
 constexpr double frequency = 1e13;                       // 1/s
-constexpr double calorie = 4.1868, gas = 8.31446;        // J; J/mol/K
+constexpr double calorie = 4.184, gas = 8.31446;         // J; J/mol/K
 constexpr double least_energy = 34e3, step_energy = 2e3; // cal/mol
 constexpr double celsius = 273.15;
 constexpr std::array<double, reactions> shares{.03, .03, .04, .04, .05, .05, .06, .04, .04, .07,

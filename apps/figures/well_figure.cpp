@@ -44,6 +44,26 @@ nlohmann::ordered_json wells_json(const Observation& now,
     return list;
 }
 
+/// What effects measure along the section: lists of objects that begin with x_m.
+nlohmann::ordered_json profiles_json(const Observation& now) {
+    auto list = nlohmann::ordered_json::array();
+    for (const EffectPart& part : now.scene.effects)
+        for (const MeasuredObjects& objects : part.effect->objects) {
+            if (objects.parts.size() != 2 || objects.parts[0].name != "x_m")
+                continue;
+            nlohmann::ordered_json profile{{"label", objects.parts[1].label},
+                                           {"unit", objects.parts[1].unit}};
+            for (const NamedNumbers& numbers :
+                 objects.value(now).value_or(std::vector<NamedNumbers>())) {
+                profile["x_m"].push_back(numbers[0].second);
+                profile["values"].push_back(numbers[1].second);
+            }
+            if (profile.contains("x_m"))
+                list.push_back(std::move(profile));
+        }
+    return list;
+}
+
 } // namespace
 
 bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
@@ -66,7 +86,8 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
                           {"extension_km", run.names.kilometres(snapshot_extension(path))},
                           {"options", wells.empty() ? "" : fmt::format("-x-{}m", listed(wells))},
                           {"extension_m", moment.state.clock.extension.m},
-                          {"wells", list}});
+                          {"wells", list},
+                          {"profiles", profiles_json(now)}});
         if (!run.parts.base.motion.stages.empty())
             frames.back()["way_m"] = moment.state.clock.travel.m;
     }

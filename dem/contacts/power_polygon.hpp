@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/contacts/power_cell.hpp"
+#include "dem/numbers/point.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +9,16 @@
 #include <vector>
 
 namespace listric::dem {
+
+/// The part of the plane that belongs to a disc: the points whose power |p - c|^2 - r^2 is least
+/// for it. Unlike a disc's own area it contains its share of the pores, and cells fill the plane.
+struct PowerCell {
+    double area = 0.0;   ///< m^2
+    bool closed = false; ///< bounded by other discs and the base on all sides
+};
+
+/// What is beyond the edge of a cell, if no disc.
+inline constexpr std::int32_t facet_on_base = -1, facet_open = -2, facet_on_lid = -3;
 
 /// A power cell about its centre while it is cut.
 class PowerPolygon {

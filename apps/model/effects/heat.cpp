@@ -1,7 +1,7 @@
 #include "thermal/heat.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/heat_measures.hpp"
+#include "apps/model/effects/heat/heat_measures.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/words/spelling.hpp"

@@ -1,4 +1,4 @@
-#include "apps/model/effects/heat_measures.hpp"
+#include "apps/model/effects/heat/heat_measures.hpp"
 
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
@@ -62,7 +62,7 @@ class Columns {
 public:
     explicit Columns(const Observation& now)
         : cells_(heat_in(now)->cells(now.state)),
-          ground_(ground_line(now.state, now.parts.base, heat_in(now)->setting().beside)),
+          ground_(heat_in(now)->solved_ground(now.state, now.parts.base)),
           surface_(heat_in(now)->parameters().surface_temperature) {}
 
     /// None: not above the section's floor.
@@ -92,7 +92,7 @@ private:
     std::vector<std::size_t> sites_about(double x) const {
         std::vector<std::size_t> column;
         for (std::size_t i = 0; i < cells_.sites.count(); ++i)
-            if (std::abs(cells_.sites.x[i] - x) <= 0.4 * cells_.sites.reach[i])
+            if (!cells_.is_new[i] && std::abs(cells_.sites.x[i] - x) <= 0.4 * cells_.sites.reach[i])
                 column.push_back(i);
         std::ranges::sort(column, {}, [&](std::size_t i) {
             return ground_.depth({cells_.sites.x[i], cells_.sites.y[i]});
