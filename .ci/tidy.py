@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = ("dem", "fluid", "coupling", "fem", "apps")
+FOLDERS = ("dem", "fluid", "thermal", "coupling", "fem", "apps")
 TIDY = "clang-tidy-14"
 
 

@@ -22,22 +22,45 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Numbers of the wells for the drawing script, by name a list from the ground down.
-nlohmann::ordered_json wells_json(const Observation& now, const MeasuredWell& well,
+/// Numbers of the wells for the drawing script, by name a list from the ground down. Each effect
+/// has depths, and so an object, of its own.
+nlohmann::ordered_json wells_json(const Observation& now,
+                                  const std::vector<const MeasuredWell*>& wells,
                                   const std::vector<double>& places) {
     std::vector<WellPlace> chosen;
     for (const double x : places)
         chosen.push_back({"well", x});
     auto list = nlohmann::ordered_json::array();
-    for (const WellPlace& place : places.empty() ? well.places(now) : chosen) {
-        nlohmann::ordered_json columns = nlohmann::ordered_json::object();
-        const std::vector<NamedNumbers> rows = well.numbers(now, place.x);
-        for (const NamedNumbers& numbers : rows)
-            for (const auto& [name, value] : numbers)
-                columns[name].push_back(value);
-        if (!rows.empty())
-            list.push_back({{"name", place.name}, {"x_m", place.x}, {"columns", columns}});
-    }
+    for (const WellPlace& place : places.empty() ? wells.front()->places(now) : chosen)
+        for (const MeasuredWell* const well : wells) {
+            nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+            const std::vector<NamedNumbers> rows = well->numbers(now, place.x);
+            for (const NamedNumbers& numbers : rows)
+                for (const auto& [name, value] : numbers)
+                    columns[name].push_back(value);
+            if (!rows.empty())
+                list.push_back({{"name", place.name}, {"x_m", place.x}, {"columns", columns}});
+        }
+    return list;
+}
+
+/// What effects measure along the section: lists of objects that begin with x_m.
+nlohmann::ordered_json profiles_json(const Observation& now) {
+    auto list = nlohmann::ordered_json::array();
+    for (const EffectPart& part : now.scene.effects)
+        for (const MeasuredObjects& objects : part.effect->objects) {
+            if (objects.parts.size() != 2 || objects.parts[0].name != "x_m")
+                continue;
+            nlohmann::ordered_json profile{{"label", objects.parts[1].label},
+                                           {"unit", objects.parts[1].unit}};
+            for (const NamedNumbers& numbers :
+                 objects.value(now).value_or(std::vector<NamedNumbers>())) {
+                profile["x_m"].push_back(numbers[0].second);
+                profile["values"].push_back(numbers[1].second);
+            }
+            if (profile.contains("x_m"))
+                list.push_back(std::move(profile));
+        }
     return list;
 }
 
@@ -46,15 +69,15 @@ nlohmann::ordered_json wells_json(const Observation& now, const MeasuredWell& we
 bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
                 const std::vector<double>& wells, const fs::path& pictures,
                 const PictureOrder& order) {
-    const MeasuredWell* const well = measured_well(run.scene);
-    if (!well)
+    const std::vector<const MeasuredWell*> measured = measured_wells(run.scene);
+    if (measured.empty())
         return false;
     auto frames = nlohmann::ordered_json::array();
     std::set<double> dry(wells.begin(), wells.end());
     for (const fs::path& path : snapshots) {
         const Moment moment = run.read(path);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
-        const nlohmann::ordered_json list = wells_json(now, *well, wells);
+        const nlohmann::ordered_json list = wells_json(now, measured, wells);
         for (const auto& found : list)
             dry.erase(found["x_m"].get<double>());
         if (list.empty())
@@ -63,14 +86,15 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
                           {"extension_km", run.names.kilometres(snapshot_extension(path))},
                           {"options", wells.empty() ? "" : fmt::format("-x-{}m", listed(wells))},
                           {"extension_m", moment.state.clock.extension.m},
-                          {"wells", list}});
+                          {"wells", list},
+                          {"profiles", profiles_json(now)}});
         if (!run.parts.base.motion.stages.empty())
             frames.back()["way_m"] = moment.state.clock.travel.m;
     }
     if (frames.empty())
         return false;
     for (const double x : dry)
-        warn(fmt::format("--well {}: no pore water under pressure there", text(x)));
+        warn(fmt::format("--well {}: nothing that is measured in wells is there", text(x)));
     const fs::path figures = fs::absolute(pictures);
     const TemporaryFolder data(figures);
     write_text(data.path / "wells.json", to_text(nlohmann::ordered_json{{"frames", frames}}));

@@ -17,6 +17,7 @@
     EFFECT(pore_fluid) \
     EFFECT(compaction) \
     EFFECT(bed) \
+    EFFECT(heat) \
     EFFECT(energy) \
     EFFECT(elastic_base) \
     EFFECT(lower_crust_thinning) \

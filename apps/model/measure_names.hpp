@@ -29,6 +29,8 @@ inline constexpr const char* beyond_byerlee = "beyond_byerlee_m2";
 inline constexpr const char* base_elements_difference = "base_elements_difference";
 inline constexpr const char* base_resolved_difference = "base_resolved_difference";
 
+inline constexpr const char* heat_balance_error = "heat_balance_error";
+
 // Names of the water's measures.
 inline constexpr const char* water_error = "water_error";
 inline constexpr const char* fluid_closure = "fluid_closure";

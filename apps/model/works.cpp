@@ -79,4 +79,22 @@ const Work catalano{"Catalano et al. (2013)", R"(@misc{catalano_2013,
   note   = {Discs with pore water as a finite-volume flow; title and journal not verified},
 })"};
 
+const Work mckenzie{"McKenzie (1978)", R"(@article{mckenzie_1978,
+  author  = {McKenzie, Dan},
+  title   = {Some remarks on the development of sedimentary basins},
+  journal = {Earth and Planetary Science Letters},
+  volume  = {40},
+  pages   = {25--32},
+  year    = {1978},
+})"};
+
+const Work sweeney_burnham{"Sweeney and Burnham (1990)", R"(@article{sweeney_burnham_1990,
+  author  = {Sweeney, Jerry J. and Burnham, Alan K.},
+  title   = {Evaluation of a simple model of vitrinite reflectance based on chemical kinetics},
+  journal = {AAPG Bulletin},
+  volume  = {74},
+  pages   = {1559--1570},
+  year    = {1990},
+})"};
+
 } // namespace listric::works

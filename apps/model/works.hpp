@@ -17,6 +17,7 @@ namespace works {
 extern const Work seyferth_henk; ///< the method; behind every run
 extern const Work itasca, baldwin_butler, kusznir, hetenyi, turcotte_schubert;
 extern const Work gibson, audet_fowler, wangen, yang_aplin, catalano;
+extern const Work mckenzie, sweeney_burnham;
 } // namespace works
 
 /// Works behind an effect besides the paper; declared in effects/NAME.cpp. None of an unknown one.

@@ -3,6 +3,7 @@
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/cells.hpp"
+#include "dem/contacts/power_polygon.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -15,75 +16,13 @@ namespace listric::dem {
 
 namespace {
 
-struct Corner {
-    Point p;
-    std::int32_t beyond; ///< the edge that leaves this corner, as PowerFacet::neighbour
-};
-
-/// A cell about a disc's centre while it is cut.
-class Polygon {
-public:
-    /// Begins with the square that reaches `half` to each side.
-    void begin(double half) {
-        corners_ = {{{-half, -half}, facet_open},
-                    {{half, -half}, facet_open},
-                    {{half, half}, facet_open},
-                    {{-half, half}, facet_open}};
-    }
-
-    /// Keeps what has n . p <= offset.
-    void clip(Point n, double offset, std::int32_t beyond) {
-        scratch_.clear();
-        for (std::size_t k = 0; k < corners_.size(); ++k) {
-            const Corner& a = corners_[k];
-            const Corner& b = corners_[(k + 1) % corners_.size()];
-            const double outside_a = n.x * a.p.x + n.y * a.p.y - offset;
-            const double outside_b = n.x * b.p.x + n.y * b.p.y - offset;
-            if (outside_a <= 0.0)
-                scratch_.push_back(a);
-            if ((outside_a <= 0.0) == (outside_b <= 0.0))
-                continue;
-            const double share = outside_a / (outside_a - outside_b);
-            const Point cut{a.p.x + share * (b.p.x - a.p.x), a.p.y + share * (b.p.y - a.p.y)};
-            scratch_.push_back({cut, outside_a <= 0.0 ? beyond : a.beyond});
-        }
-        corners_.swap(scratch_);
-    }
-
-    /// Cuts off what is beyond surfaces of the base within `half` of the centre.
-    void clip(const RigidBase& base, const BasePlace& place, Point centre, double half) {
-        for (const Surface& s : base.surfaces)
-            if (const auto foot = nearest(s, place, centre); foot && foot->distance < half)
-                clip({-foot->normal.x, -foot->normal.y}, foot->distance, facet_on_base);
-    }
-
-    PowerCell cell() const {
-        double twice = 0.0;
-        bool closed = true;
-        for_each_edge([&](const Corner& a, const Corner& b) {
-            twice += a.p.x * b.p.y - a.p.y * b.p.x;
-            closed = closed && a.beyond != facet_open;
-        });
-        return {0.5 * twice, closed && corners_.size() > 2};
-    }
-
-    /// Square of the greatest distance of a corner from the centre, m^2.
-    double reach() const {
-        double greatest = 0.0;
-        for (const Corner& c : corners_)
-            greatest = std::max(greatest, c.p.x * c.p.x + c.p.y * c.p.y);
-        return greatest;
-    }
-
-    /// Calls visit(a, b) for the corners of every edge.
-    template <class Visit> void for_each_edge(Visit&& visit) const {
-        for (std::size_t c = 0; c < corners_.size(); ++c)
-            visit(corners_[c], corners_[(c + 1) % corners_.size()]);
-    }
-
-private:
-    std::vector<Corner> corners_, scratch_;
-};
+/// Cuts off what is beyond surfaces of the base within `half` of the centre.
+void clip(PowerPolygon& polygon, const RigidBase& base, const BasePlace& place, Point centre,
+          double half) {
+    for (const Surface& s : base.surfaces)
+        if (const auto foot = nearest(s, place, centre); foot && foot->distance < half)
+            polygon.clip({-foot->normal.x, -foot->normal.y}, foot->distance, facet_on_base);
+}
 
 double reach_of(const State& state) { return 5.0 * state.mean_radius; }
 
@@ -110,12 +49,12 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     std::vector<PowerCell> result(rows.size());
     const BasePlace place = base_place(state);
     in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
-        Polygon polygon;
+        PowerPolygon polygon;
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(rows[k]);
             const double half = 0.5 * reach;
             polygon.begin(half);
-            polygon.clip(base, place, {d.x[i], d.y[i]}, half);
+            clip(polygon, base, place, {d.x[i], d.y[i]}, half);
             cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
                 const auto j = static_cast<std::size_t>(row);
                 const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
@@ -134,9 +73,9 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
 namespace {
 
 /// Adds the facets of a polygon about disc i.
-void add_facets(const Polygon& polygon, const ConstDiscColumns& d, std::size_t i,
+void add_facets(const PowerPolygon& polygon, const ConstDiscColumns& d, std::size_t i,
                 std::vector<PowerFacet>& facets) {
-    polygon.for_each_edge([&](const Corner& a, const Corner& b) {
+    polygon.for_each_edge([&](const auto& a, const auto& b) {
         const double x = b.p.x - a.p.x, y = b.p.y - a.p.y, length = hypotenuse(x, y);
         if (length == 0.0)
             return;
@@ -166,7 +105,7 @@ FacetedCells faceted_cells(const State& state, const RigidBase& base,
     };
     const auto cut = [&](std::size_t k, std::size_t end) {
         Piece piece;
-        Polygon polygon;
+        PowerPolygon polygon;
         std::vector<std::pair<double, std::int32_t>> near; // square of the distance; row
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(rows[k]);
@@ -180,7 +119,7 @@ FacetedCells faceted_cells(const State& state, const RigidBase& base,
             });
             std::ranges::sort(near);
             polygon.begin(half);
-            polygon.clip(base, place, {d.x[i], d.y[i]}, half);
+            clip(polygon, base, place, {d.x[i], d.y[i]}, half);
             if (std::isfinite(lids[k]))
                 polygon.clip({0.0, 1.0}, lids[k], facet_on_lid);
             double corners = polygon.reach();

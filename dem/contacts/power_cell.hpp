@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/contacts/power_polygon.hpp"
 #include "dem/state.hpp"
 
 #include <cstddef>
@@ -10,13 +11,6 @@
 
 namespace listric::dem {
 
-/// The part of the plane that belongs to a disc: the points whose power |p - c|^2 - r^2 is least
-/// for it. Unlike a disc's own area it contains its share of the pores, and cells fill the plane.
-struct PowerCell {
-    double area = 0.0;   ///< m^2
-    bool closed = false; ///< bounded by other discs and the base on all sides
-};
-
 /// Power cells of the discs of the given rows, from the discs within five mean radii. Weakened
 /// discs count with the radius of the rock that they stand for: their enlargement is a spring's
 /// travel, and would take area from their sound neighbours.
@@ -25,14 +19,12 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
 
 /// Side of a power cell.
 struct PowerFacet {
-    /// Row of the disc beyond it; or one of the following.
+    /// Row of the disc beyond it; or one of facet_on_base, facet_open, facet_on_lid.
     std::int32_t neighbour = 0;
     double length = 0.0;   ///< m
     double distance = 0.0; ///< to the neighbour's centre, or to the line of base or lid, m
     Point arm;             ///< from the disc's centre to the middle of the facet, m
 };
-
-inline constexpr std::int32_t facet_on_base = -1, facet_open = -2, facet_on_lid = -3;
 
 /// Power cells with their facets: those of cell k are facets[begin[k]] to facets[begin[k + 1]].
 struct FacetedCells {

@@ -29,6 +29,7 @@ FLOORS = {
     "apps/model": "the objects a scene asks for; effects, one file each",
     "apps/scene": "what the user writes, read and checked",
     "apps/support": "errors, files, text, statistics",
+    "thermal": "temperature of discs and of the rock around",
     "fluid": "water in the pores of sediment",
     "coupling": "discs on the elastic footwall",
     "fem": "the elastic footwall (plug-in: deal.II, PETSc)",

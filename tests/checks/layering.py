@@ -17,7 +17,7 @@ READER = "apps/python"
 APPS = [f"apps/{name}" for name in ("support", "scene", "model", "measures", "archive", "figures",
                                     "run", "laboratory", "studies", "commands", "page")]
 LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "coupling"},
-             "fluid": {"dem", "fluid"}}
+             "fluid": {"dem", "fluid"}, "thermal": {"dem", "fluid", "thermal"}}
 
 # Units of the plug-in, which the program loads instead of linking: the only ones on deal.II and
 # PETSc. What else is in fem is the interface, and free of them.
@@ -45,6 +45,7 @@ FOREIGN = {
     "fem": SYSTEM,
     "coupling": ("Eigen/",),
     "fluid": ("Eigen/",),
+    "thermal": (),
     "apps/measures": (),
     "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
              "pugixml.hpp", "zlib.h"),

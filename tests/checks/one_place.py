@@ -42,6 +42,7 @@ EFFECTS = (
     Effect("pore_fluid", "PoreFluidParameters"),
     Effect("compaction", "CompactionParameters"),
     Effect("bed", "SedimentBed", own="apps/scene/parameters/sediment_bed*", trade=True),
+    Effect("heat", "HeatParameters", trade=True),
     Effect("energy", "EnergyParameters", trade=True),
     Effect("elastic_base", "ElasticBaseParameters"),
     Effect("lower_crust_thinning", "LowerCrustThinningParameters"),

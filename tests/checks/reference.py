@@ -24,7 +24,8 @@ spec.loader.exec_module(measure_pages)
 PARAMETERS, MEASURES = "docs/reference/parameters.md", "docs/reference/measures.md"
 UNITS = {"_m": "m", "_m2": "m2", "_deg": "deg", "_a": "a", "_s": "s", "_pa": "Pa", "_per_s": "1/s", "_per_km": "1/km",
          "_kg_per_m3": "kg/m3", "_m_per_s": "m/s", "_m_per_a": "m/a", "_n_per_m": "N/m", "_j_per_m": "J/m",
-         "_mm_per_a": "mm/a", "_per_m": "1/m", "_pa_s": "Pa s", "_per_pa": "1/Pa", "_m_per_s2": "m/s2", "_diameters": ""}
+         "_mm_per_a": "mm/a", "_per_m": "1/m", "_pa_s": "Pa s", "_per_pa": "1/Pa", "_m_per_s2": "m/s2", "_diameters": "",
+         "_mw_per_m2": "mW/m2", "_w_per_m_k": "W/m/K", "_w_per_m3": "W/m3", "_percent": "%"}
 LEANS = re.compile(r"(?:of|where|what|the same|those|that|its|it|which|in|at|to|as)\b", re.IGNORECASE)
 
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path, PurePosixPath
 
 ROOT = Path(__file__).resolve().parents[2]
-LAYERS = ("dem", "fem", "coupling", "fluid", "apps")
+LAYERS = ("dem", "fem", "coupling", "fluid", "thermal", "apps")
 CPP = {".hpp", ".cpp"}
 PYTHON = {".py"}
 PAGE = {".js", ".json"}

@@ -5,12 +5,14 @@
 #include "apps/measures/basin/profile.hpp"
 #include "apps/measures/strata/burial.hpp"
 #include "apps/support/fineness.hpp"
+#include "thermal/columns.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace listric::archive {
@@ -64,6 +66,24 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
     return well;
 }
 
+/// Whether sediment has a temperature.
+bool is_warm(const Observation& now) { return now.state.discs.has(thermal::columns::temperature); }
+
+/// Mean of a column over a stratum's discs of the well; NaN where there is no such column.
+double mean_of(const State& state, std::string_view column, const WellStratum& stratum) {
+    if (!state.discs.has(column))
+        return std::nan("");
+    const auto id = disc_columns(state).id;
+    const auto values = state.discs.get<double>(column);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < id.size(); ++i)
+        if (std::ranges::binary_search(stratum.ids, id[i])) {
+            sum += values[i];
+            count += 1.0;
+        }
+    return sum / count;
+}
+
 void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
                 double grain_density) {
     const Setting setting = make_setting(now.scene, now.parts);
@@ -77,6 +97,11 @@ void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
                               {metres(b.base), metres(b.top - b.ground), metres(b.base - b.top),
                                b.porosity, clock.extension.m, setting.calendar.age(clock.travel),
                                setting.calendar.years(clock.travel, drilled_at)});
+        if (!is_warm(now))
+            continue;
+        const WellStratum& stratum = well.rock.at(b.stratum);
+        line.at_points.push_back(mean_of(now.state, thermal::columns::temperature, stratum));
+        line.at_points.push_back(mean_of(now.state, thermal::columns::vitrinite, stratum));
     }
 }
 
@@ -88,8 +113,9 @@ std::vector<WellPlace> well_places(const Observation& now, const std::vector<dou
         places.push_back(well_place(x));
     if (!places.empty())
         return places;
-    const MeasuredWell* const well = measured_well(now.scene);
-    places = well ? well->places(now) : std::vector<WellPlace>();
+    for (const MeasuredWell* const well : measured_wells(now.scene))
+        if (places.empty())
+            places = well->places(now);
     return places.empty() && now.parts.sediment ? places_by_thickness(now) : places;
 }
 
@@ -110,6 +136,9 @@ LineTable burial_table(const RunFolder& run, const std::filesystem::path& drille
         const Moment moment = run.read(drilled);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
         drilled_at = moment.state.clock.travel;
+        if (is_warm(now)) // the path of temperature through time
+            table.point_columns.insert(table.point_columns.end(),
+                                       {"temperature_c", "vitrinite_percent"});
         for (const WellPlace& place : well_places(now, wells))
             all.push_back(begin_well(place, now, grain_density));
     }

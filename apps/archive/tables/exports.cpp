@@ -18,10 +18,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -186,21 +188,74 @@ LineTable base_table(const ExportedMoment& at) {
 
 WellPlace well_place(double x) { return {fmt::format("x {} m", text(x)), x}; }
 
+namespace {
+
+/// Numbers of a well by name, from the ground down.
+using WellColumns = std::map<std::string, std::vector<double>, std::less<>>;
+
+WellColumns columns_of(const Observation& now, const MeasuredWell& well, double x) {
+    WellColumns columns;
+    for (const NamedNumbers& numbers : well.numbers(now, x))
+        for (const auto& [name, value] : numbers)
+            columns[name].push_back(value);
+    return columns;
+}
+
+/// A number at a depth, straight between those of a well and level beyond; NaN without any.
+double at_depth(const WellColumns& well, std::string_view name, double depth) {
+    const auto values = well.find(name);
+    if (values == well.end() || values->second.empty())
+        return std::nan("");
+    const std::vector<double>& depths = well.at("depth_m");
+    const auto after =
+        static_cast<std::size_t>(std::ranges::upper_bound(depths, depth) - depths.begin());
+    if (after == 0 || after == depths.size())
+        return values->second[after == 0 ? 0 : after - 1];
+    const double share = (depth - depths[after - 1]) / (depths[after] - depths[after - 1]);
+    return std::lerp(values->second[after - 1], values->second[after], share);
+}
+
+/// The parts of wells that the wells before do not have.
+std::vector<std::vector<Quantity>> new_parts(std::span<const MeasuredWell* const> wells) {
+    std::set<std::string_view> known;
+    std::vector<std::vector<Quantity>> parts;
+    for (const MeasuredWell* const well : wells) {
+        std::vector<Quantity>& its = parts.emplace_back();
+        for (const Quantity& part : well->parts)
+            if (known.insert(part.name).second)
+                its.push_back(part);
+    }
+    return parts;
+}
+
+} // namespace
+
 LineTable wells_table(const ExportedMoment& at) {
     LineTable table{"wells", "", {"name"}};
-    const MeasuredWell* const well = measured_well(at.now.scene);
-    if (!well)
+    const std::vector<const MeasuredWell*> wells = measured_wells(at.now.scene);
+    if (wells.empty())
         return table;
-    for (const Quantity& part : well->parts) // a line's depth is that below the original surface
-        table.point_columns.emplace_back(part.name == "depth_m" ? "ground_depth_m" : part.name);
+    const std::vector<std::vector<Quantity>> parts = new_parts(wells);
+    for (const std::vector<Quantity>& its : parts)
+        for (const Quantity& part : its) // a line's depth is that below the original surface
+            table.point_columns.emplace_back(part.name == "depth_m" ? "ground_depth_m" : part.name);
     std::vector<WellPlace> places;
     for (const double x : at.wells)
         places.push_back(well_place(x));
-    for (const WellPlace& place : places.empty() ? well->places(at.now) : places) {
-        Line line{{place.name}, rounded(at, well->points(at.now, place.x))};
-        for (const NamedNumbers& numbers : well->numbers(at.now, place.x))
+    // The first well's depths are those of all.
+    for (const WellPlace& place : places.empty() ? wells.front()->places(at.now) : places) {
+        Line line{{place.name}, rounded(at, wells.front()->points(at.now, place.x))};
+        std::vector<WellColumns> others;
+        for (const MeasuredWell* const well : std::span(wells).subspan(1))
+            others.push_back(columns_of(at.now, *well, place.x));
+        for (const NamedNumbers& numbers : wells.front()->numbers(at.now, place.x)) {
             for (const auto& [name, value] : numbers)
                 line.at_points.push_back(value);
+            for (std::size_t k = 0; k < others.size(); ++k)
+                for (const Quantity& part : parts[k + 1])
+                    line.at_points.push_back(
+                        at_depth(others[k], part.name, numbers.front().second));
+        }
         if (!line.points.empty())
             table.lines.push_back(std::move(line));
     }

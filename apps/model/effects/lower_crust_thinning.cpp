@@ -95,6 +95,11 @@ const Effect& effect() {
             },
         .check = check,
         .warning = warning,
+        .contribute =
+            [](const Scene& scene, ModelParts& parts) {
+                const P& p = *scene.find<P>();
+                parts.stretched_crust = {p.centre - 0.5 * p.width, p.width};
+            },
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = {"thinning of the lower crust",

@@ -54,11 +54,12 @@ std::vector<FigureLayer> figure_layers(const Scene& scene) {
     return layers;
 }
 
-const MeasuredWell* measured_well(const Scene& scene) {
+std::vector<const MeasuredWell*> measured_wells(const Scene& scene) {
+    std::vector<const MeasuredWell*> wells;
     for (const EffectPart& part : scene.effects)
         if (part.effect->well)
-            return &*part.effect->well;
-    return nullptr;
+            wells.push_back(&*part.effect->well);
+    return wells;
 }
 
 } // namespace listric

@@ -112,6 +112,11 @@ struct WaterFacts {
     bool moves = false;   ///< the level, in stages
 };
 
+/// Crust that stretches below the detachment, as effects describe it to each other.
+struct StretchedCrust {
+    double left, width; ///< before extension, m
+};
+
 /// A layer of rock as effects describe it to genesis and to measures.
 struct LayerFacts {
     std::string name;
@@ -131,6 +136,7 @@ struct ModelParts {
     std::optional<SedimentFacts> sediment;
     std::optional<WaterFacts>
         water; ///< none: pores are empty, or what fills them weighs on no disc
+    std::optional<StretchedCrust> stretched_crust; ///< none: what is below the detachment rests
     /// Sediment younger than this is too loose for a fault: it creeps all over, m of travel.
     double youngest_sediment = 2.0e3;
     /// Diameter of the circle that faults are looked for with, mean disc diameters; none: they are
@@ -332,8 +338,8 @@ std::string settling_of(const Scene& scene);
 /// Layers of the effects that are on.
 std::vector<FigureLayer> figure_layers(const Scene& scene);
 
-/// Wells of the effect that has some; null where none of those that are on has.
-const MeasuredWell* measured_well(const Scene& scene);
+/// Wells of the effects that are on and have some.
+std::vector<const MeasuredWell*> measured_wells(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }

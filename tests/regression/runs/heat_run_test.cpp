@@ -1,0 +1,123 @@
+// Temperatures from the scene to the discs: what they leave as it is, what is kept, and what is
+// refused.
+
+#include "apps/archive/snapshot/snapshot.hpp"
+#include "apps/commands/explain.hpp"
+#include "apps/figures/sections/export_run.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/files/file.hpp"
+#include "tests/message_of.hpp"
+#include "tests/program.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace listric::heat_run_test {
+
+using namespace dem;
+namespace {
+
+using namespace support;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class HeatRun : public SceneRuns {
+protected:
+    static Scene with(std::vector<std::string> set) {
+        set.insert(set.begin(), "heat.interval_a=2500");
+        return load_scene({.scene = test_scene("every-effect.toml"), .set = set});
+    }
+
+    static std::string refusal(const std::vector<std::string>& set) {
+        return message_of<SceneError>([&] { with(set); });
+    }
+
+    nlohmann::json run_with(const std::string& name, const std::vector<std::string>& set,
+                            int threads = 1) const {
+        RunOptions o = options(name);
+        o.threads = threads;
+        o.force = true;
+        return run(with(set), o);
+    }
+
+    State last_state(const std::string& name) const {
+        return read_snapshot(list_snapshots(folder / name).back()).state;
+    }
+};
+
+TEST_F(HeatRun, HasTheSameBitsHoweverItIsRun) {
+    const auto once = run_with("once", {});
+    EXPECT_EQ(run_with("threads", {}, 2)["state_hash"], once["state_hash"]);
+    for (const double until : {60.0, 112.5}) {
+        RunOptions o = options("parts");
+        o.force = true;
+        o.until = until;
+        run_scene(with({}), o);
+        o.until = {};
+        o.force = false;
+        o.resume = true;
+        EXPECT_EQ(run(with({}), o)["state_hash"], once["state_hash"]) << until;
+    }
+    EXPECT_LE(std::abs(once["heat_balance_error"].get<double>()), 1e-10);
+    EXPECT_GT(once["vitrinite_max_percent"].get<double>(), 0.2);
+    EXPECT_GT(once["surface_heat_flow_mw_per_m2"].get<double>(), 1.0);
+}
+
+/// Temperatures move nothing.
+TEST_F(HeatRun, LeavesTheDiscsWhereTheyAre) {
+    run_with("warm", {});
+    RunOptions o = options("cold");
+    run(load_scene({.scene = test_scene("every-effect.toml")}), o);
+    const State warm = last_state("warm"), cold = last_state("cold");
+    EXPECT_THAT(disc_columns(warm).y, testing::ElementsAreArray(disc_columns(cold).y));
+    EXPECT_TRUE(warm.discs.has("temperature"));
+    EXPECT_FALSE(cold.discs.has("temperature"));
+    EXPECT_FALSE(cold.discs.has("kerogen_1"));
+}
+
+/// A pause by steps is a solution by step: rock that nothing moves goes on to warm.
+TEST_F(HeatRun, GoesOnInAPause) {
+    constexpr int travel = 200; // of a step, m
+    const auto paused = [&](const char* name, int steps) {
+        return run_with(name,
+                        {fmt::format("extension.distance_m={}", 100 + steps * travel),
+                         fmt::format("stage=[{{distance_m=100.0}}, {{pause_a=4e6, step_a={}}}]",
+                                     4000000 / steps)});
+    };
+    const auto fine = paused("fine", 8), coarse = paused("coarse", 4);
+    EXPECT_LE(std::abs(fine["heat_balance_error"].get<double>()), 1e-10);
+    EXPECT_GT(fine["vitrinite_max_percent"].get<double>(), 0.2);
+    EXPECT_NEAR(fine["detachment_temperature_c"].get<double>(),
+                coarse["detachment_temperature_c"].get<double>(), 0.5); // first order in time
+}
+
+TEST_F(HeatRun, WellsAreExported) {
+    run_with("once", {});
+    export_run({.kind = "well", .output = folder / "once"});
+    std::string text;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "once/export"))
+        if (file.path().extension() == ".csv")
+            text += contents(file.path());
+    for (const char* column : {"temperature_c", "max_temperature_c", "vitrinite_percent"})
+        EXPECT_THAT(text, HasSubstr(column));
+}
+
+TEST_F(HeatRun, RefusesWhatCannotBe) {
+    EXPECT_THAT(refusal({"heat.lithosphere_m=20e3"}),
+                AllOf(HasSubstr("heat.lithosphere_m"), HasSubstr("crust_m, 30000")));
+    EXPECT_THAT(refusal({"heat.crust_m=1.2e3"}), HasSubstr("heat.crust_m: is 1200"));
+    EXPECT_THAT(refusal({"heat.surface_temperature_c=100", "heat.base_temperature_c=100"}),
+                HasSubstr("above surface_temperature_c, 100"));
+    EXPECT_THAT(refusal({"heat.heat_production_w_per_m3=1e-5"}),
+                HasSubstr("heat.heat_production_w_per_m3: is 1e-05"));
+    EXPECT_THAT(refusal({"heat.mantle_width_m=1e5"}), HasSubstr("no lower crust stretches"));
+    EXPECT_THAT(refusal({"heat.conductivity_w_per_m_k=0"}),
+                HasSubstr("heat.conductivity_w_per_m_k"));
+}
+
+} // namespace
+} // namespace listric::heat_run_test

@@ -1,0 +1,148 @@
+// McKenzie's subsidence after rifting, from the points below a stretched section: the anomaly of
+// their temperatures loads a column of mantle under water. Crust, which has another heat capacity,
+// is as thin as it can be.
+
+#include "dem/columns.hpp"
+#include "tests/support.hpp"
+#include "thermal/columns.hpp"
+#include "thermal/heat.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace listric::rift_test {
+
+using namespace dem;
+using namespace thermal;
+namespace {
+
+constexpr double depth = 250.0, length = 4e3, radius = 125.0, width = 400e3;
+constexpr double mantle = 3330.0, water = 1000.0, expansion = 3.28e-5;
+
+/// Discs in rows on a flat base between walls that stay.
+State rows_of_discs() {
+    State state = empty_state();
+    state.mean_radius = radius;
+    const auto columns = static_cast<int>(length / (2.0 * radius));
+    const auto rows = static_cast<int>(depth / (2.0 * radius));
+    add_discs(state, static_cast<std::size_t>(columns * rows));
+    const DiscColumns d = disc_columns(state);
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const auto i = static_cast<std::size_t>(row * columns + column);
+            d.x[i] = (2 * column + 1) * radius;
+            d.y[i] = -(2 * row + 1) * radius;
+            d.radius[i] = radius;
+            d.mass[i] = 2600.0 * 4.0 * radius * radius;
+        }
+    return state;
+}
+
+/// A rift of a factor beta in some years, and steps of 1 Ma of rest after it.
+struct Rift {
+    State state = rows_of_discs();
+    RigidBase base;
+    HeatPoints points;
+    Heat heat;
+
+    Rift(double beta, double years, int parts)
+        : points(parameters(), setting(beta), schedule(beta, years, parts)),
+          heat(parameters(), setting(beta), points, schedule(beta, years, parts)) {
+        const double extension = (beta - 1.0) * width;
+        base.surfaces = {{"floor", {line({0.0, -depth}, {length, -depth})}},
+                         {"right wall", {line({length, -depth}, {length, 1e4})}}};
+        base.motion.stages = {
+            {Travel(0.0), Travel(extension), Extension(0.0), 1.0},
+            {Travel(extension), Travel(extension + 1e5), Extension(extension), 0.0}};
+        heat.begin(state);
+        points.start(state, base);
+        heat.start(state, base);
+        for (int k = 0; k < parts; ++k)
+            step();
+    }
+
+    static HeatParameters parameters() {
+        HeatParameters p;
+        p.surface_temperature = 0.0;
+        p.crust = depth;
+        p.conductivity = p.mantle_conductivity = 0.8e-6 * mantle_capacity;
+        p.heat_production = 0.0;
+        return p;
+    }
+    static HeatSetting setting(double beta) {
+        HeatSetting s;
+        s.beside = {0.0, 0.0, length};
+        s.greatest_extension = (beta - 1.0) * width;
+        s.shear = {-450e3, width, width};
+        s.rock_densities = {2600.0};
+        return s;
+    }
+    static Schedule schedule(double beta, double years, int parts) {
+        const double extension = (beta - 1.0) * width;
+        const SteppedPause pause{Travel(extension), Travel(100.0), 200, 1e6};
+        return {years / parts, Calendar(extension / years, {pause}), InSteps::once};
+    }
+
+    void step() {
+        for (Event* const event : {static_cast<Event*>(&points), static_cast<Event*>(&heat)}) {
+            state.clock.travel = event->next_due();
+            state.clock.extension = base.motion.position(state.clock.travel);
+            event->apply(state, base);
+            ++event->applied;
+        }
+    }
+
+    /// Uplift of the middle, in its water, m: of as many whole cells of all rows.
+    double uplift() const {
+        const std::vector<double> edges{-400e3, -40e3};
+        return mantle * expansion / (mantle - water) * heat.anomaly(state, base, edges)[0] / 360e3;
+    }
+};
+
+// Errors are those of points that stretching has put 12 km apart in rows of 3 km, above new ones in
+// rows of 6 km (1.5 % at the end, 3.4 % after 20 Ma), and of the first order in steps of 1 Ma.
+TEST(Rift, SubsidesAsMcKenzieSays) {
+    struct Moment {
+        int after; ///< Ma
+        double expected, tolerance;
+    };
+    const auto expect = [](double beta, const std::vector<Moment>& moments) {
+        Rift rift(beta, 1e3, 1);
+        const double start = rift.uplift();
+        int steps = 0;
+        for (const Moment& moment : moments) {
+            for (; steps < moment.after; ++steps)
+                rift.step();
+            EXPECT_NEAR((start - rift.uplift()) / moment.expected, 1.0, moment.tolerance)
+                << beta << ", " << moment.after;
+        }
+        EXPECT_NEAR(rift.heat.balance_error(), 0.0, 1e-10);
+    };
+    expect(1.25, {{20, 240, 0.01}, {50, 448, 0.005}, {100, 631, 0.005}});
+    expect(2, {{20, 492, 0.035}, {50, 1045, 0.025}, {100, 1544, 0.015}});
+}
+
+TEST(Rift, LosesHeatWhileItOpens) {
+    Rift rift(2.0, 10e6, 40);
+    const double start = rift.uplift();
+    for (int k = 0; k < 100; ++k)
+        rift.step();
+    EXPECT_NEAR((start - rift.uplift()) / 1442.0, 1.0, 0.01);
+    EXPECT_NEAR(rift.heat.balance_error(), 0.0, 1e-10);
+}
+
+/// Pure shear keeps areas: what comes at the floor is what the walls draw out.
+TEST(Rift, KeepsItsArea) {
+    Rift rift(1.5, 1e3, 1);
+    double area = 0.0;
+    for (const double one : rift.points.get<double>(HeatPoints::Columns::area))
+        area += one;
+    const SectionEnds ends = rift.points.ends();
+    const double all = (ends.right - ends.left) * -ends.floor - length * depth;
+    EXPECT_NEAR(area / all, 1.0, 0.03); // rows of 6 km at the floor, and at the right end
+}
+
+} // namespace
+} // namespace listric::rift_test

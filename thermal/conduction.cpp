@@ -1,0 +1,155 @@
+#include "thermal/conduction.hpp"
+
+#include "dem/cycle_physics.hpp"
+#include "fluid/sparse_solver.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace listric::thermal {
+
+using namespace dem;
+
+namespace {
+
+/// Length that both cells have of their facet: the ground may end one of them.
+double common_length(const FacetedCells& cells, std::size_t first, const PowerFacet& facet) {
+    for (const PowerFacet& back : cells.of(static_cast<std::size_t>(facet.neighbour)))
+        if (back.neighbour == static_cast<std::int32_t>(first))
+            return std::min(facet.length, back.length);
+    return 0.0;
+}
+
+/// The nearest site with a cell, to one that its neighbours have left none.
+std::int32_t nearest_to(const Sites& sites, const FacetedCells& cells, std::size_t hidden) {
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t nearest = -1;
+    for (std::size_t j = 0; j < sites.count(); ++j) {
+        const double dx = sites.x[j] - sites.x[hidden], dy = sites.y[j] - sites.y[hidden];
+        if (!cells.of(j).empty() && dx * dx + dy * dy < least) {
+            least = dx * dx + dy * dy;
+            nearest = static_cast<std::int32_t>(j);
+        }
+    }
+    return nearest;
+}
+
+} // namespace
+
+HeatNetwork heat_network(const Sites& sites, const FacetedCells& cells,
+                         std::span<const double> conductivity) {
+    assert(conductivity.size() == sites.count());
+    HeatNetwork network{
+        {}, std::vector<double>(sites.count(), 0.0), std::vector<double>(sites.count(), 0.0)};
+    for (std::size_t i = 0; i < sites.count(); ++i) {
+        const double here = conductivity[i];
+        const auto facets = cells.of(i);
+        // It has the temperature of the cell that it lies in.
+        if (facets.empty()) {
+            if (const std::int32_t other = nearest_to(sites, cells, i); other >= 0)
+                network.links.push_back({static_cast<std::int32_t>(i), other, here});
+            continue;
+        }
+        for (const PowerFacet& facet : facets) {
+            if (facet.neighbour == facet_on_lid)
+                network.ground[i] += here * facet.length / facet.distance;
+            else if (facet.neighbour == facet_on_base)
+                network.floor[i] += here * facet.length / facet.distance;
+            if (facet.neighbour <= static_cast<std::int32_t>(i))
+                continue;
+            const double there = conductivity[static_cast<std::size_t>(facet.neighbour)];
+            const double length = common_length(cells, i, facet);
+            if (length > 0.0)
+                network.links.push_back(
+                    {static_cast<std::int32_t>(i), facet.neighbour,
+                     2.0 * here * there / (here + there) * length / facet.distance});
+        }
+    }
+    return network;
+}
+
+void solve_iteratively(std::span<const HeatLink> links, std::span<const double> diagonal,
+                       std::span<const double> right_side, std::span<double> solution) {
+    const std::size_t n = diagonal.size();
+    std::vector<double> residual(n), way(n), image(n), preconditioned(n);
+    const auto multiply = [&](std::span<const double> v) {
+        for (std::size_t i = 0; i < n; ++i)
+            image[i] = diagonal[i] * v[i];
+        for (const HeatLink& link : links) {
+            const auto a = static_cast<std::size_t>(link.first);
+            const auto b = static_cast<std::size_t>(link.second);
+            image[a] -= link.conductance * v[b];
+            image[b] -= link.conductance * v[a];
+        }
+    };
+    const auto product = [n](std::span<const double> a, std::span<const double> b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < n; ++i)
+            sum += a[i] * b[i];
+        return sum;
+    };
+    multiply(solution);
+    for (std::size_t i = 0; i < n; ++i) {
+        residual[i] = right_side[i] - image[i];
+        preconditioned[i] = residual[i] / diagonal[i];
+    }
+    way = preconditioned;
+    double rho = product(residual, preconditioned);
+    constexpr double tolerance = 1e-14;
+    const double least = tolerance * tolerance * product(right_side, right_side);
+    for (std::size_t step = 0; product(residual, residual) > least; ++step) {
+        if (step > 20 * n)
+            throw NumericalFailure("heat: conjugate gradients do not converge");
+        multiply(way);
+        const double stride = rho / product(way, image);
+        for (std::size_t i = 0; i < n; ++i) {
+            solution[i] += stride * way[i];
+            residual[i] -= stride * image[i];
+            preconditioned[i] = residual[i] / diagonal[i];
+        }
+        const double next = product(residual, preconditioned);
+        for (std::size_t i = 0; i < n; ++i)
+            way[i] = preconditioned[i] + next / rho * way[i];
+        rho = next;
+    }
+}
+
+HeatFlows conduct(const HeatNetwork& network, std::span<const double> capacity,
+                  std::span<const double> production, const EndTemperatures& ends, double seconds,
+                  std::span<double> temperature) {
+    const std::size_t n = temperature.size();
+    std::vector<double> diagonal(n), right_side(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        diagonal[i] = capacity[i] / seconds + network.ground[i] + network.floor[i];
+        right_side[i] = capacity[i] / seconds * temperature[i] + production[i] +
+                        network.ground[i] * ends.ground + network.floor[i] * ends.floor;
+    }
+    for (const HeatLink& link : network.links) {
+        diagonal[static_cast<std::size_t>(link.first)] += link.conductance;
+        diagonal[static_cast<std::size_t>(link.second)] += link.conductance;
+    }
+    if (n <= most_direct) {
+        std::vector<fluid::MatrixEntry> entries;
+        std::vector<double> values;
+        for (const HeatLink& link : network.links) {
+            entries.push_back({link.first, link.second});
+            values.push_back(-link.conductance);
+        }
+        fluid::SparseSolver solver(n, entries);
+        if (!solver.solve(diagonal, values, right_side, temperature))
+            throw NumericalFailure("heat: the matrix of conduction is not positive definite");
+    } else {
+        solve_iteratively(network.links, diagonal, right_side, temperature);
+    }
+    HeatFlows flows;
+    for (std::size_t i = 0; i < n; ++i) {
+        flows.produced += seconds * production[i];
+        flows.through_ground += seconds * network.ground[i] * (temperature[i] - ends.ground);
+        flows.through_floor += seconds * network.floor[i] * (ends.floor - temperature[i]);
+    }
+    return flows;
+}
+
+} // namespace listric::thermal

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace listric::thermal {
+
+/// The ground that heat leaves through, from left to right: a line through points whose x ascends,
+/// level beyond its ends. Two of one x are a cliff.
+class GroundLine {
+public:
+    explicit GroundLine(std::vector<dem::Point> points);
+
+    double height(double x) const;
+    double depth(dem::Point p) const { return height(p.x) - p.y; }
+    double highest() const;
+
+    /// The nearest place within a distance, m, and the way into the rock from there; its distance
+    /// is below 0 above the ground.
+    std::optional<dem::Foot> nearest(dem::Point p, double within) const;
+
+private:
+    std::size_t after(double x) const;
+
+    std::vector<dem::Point> points_;
+};
+
+/// Height of the ground beside the hanging wall before extension.
+struct GroundBeside {
+    double left = 0.0, right = 0.0; ///< m
+    double wall_x = 0.0;            ///< right end of the hanging wall before extension, m
+};
+
+/// The ground of the discs, of the base where it is bare, and of the rock on both sides.
+/// @param least_age  of sediment that counts: travel since it was laid down, m
+GroundLine ground_line(const dem::State& state, const dem::RigidBase& base,
+                       const GroundBeside& beside, double least_age = 0.0);
+
+/// What the discs rest on, as it stands, as a line of points not further apart than `step`, m.
+std::vector<dem::Point> base_points(const dem::State& state, const dem::RigidBase& base,
+                                    double step);
+
+/// Upward displacement of the base's nodes at x, level beyond their ends, m; 0 where it is rigid.
+double uplift_at(const dem::State& state, double x);
+
+} // namespace listric::thermal

@@ -1,0 +1,257 @@
+#include "thermal/heat.hpp"
+
+#include "dem/columns.hpp"
+#include "thermal/columns.hpp"
+#include "thermal/maturity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace listric::thermal {
+
+using namespace dem;
+
+namespace {
+
+constexpr std::array<const char*, reactions> kerogen{
+    "kerogen_1",  "kerogen_2",  "kerogen_3",  "kerogen_4",  "kerogen_5",
+    "kerogen_6",  "kerogen_7",  "kerogen_8",  "kerogen_9",  "kerogen_10",
+    "kerogen_11", "kerogen_12", "kerogen_13", "kerogen_14", "kerogen_15",
+    "kerogen_16", "kerogen_17", "kerogen_18", "kerogen_19", "kerogen_20"};
+
+double sum_of_products(std::span<const double> a, std::span<const double> b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+} // namespace
+
+Heat::Heat(const HeatParameters& p, const HeatSetting& setting, HeatPoints& points,
+           const Schedule& schedule)
+    : Event("heat", schedule), p_(p), setting_(setting), points_(points), geotherm_(p) {
+    for (const char* name :
+         {Sums::initial, Sums::stored, Sums::discs, Sums::came, Sums::eroded, Sums::expelled,
+          Sums::rose, Sums::sank, Sums::produced, Sums::floor, Sums::ground})
+        memory.add<double>(name, "J/m", 0.0);
+    memory.resize(1);
+}
+
+void Heat::begin(State& state) {
+    state.discs.add(columns::temperature, p_.surface_temperature);
+    state.discs.add(columns::max_temperature);
+    state.discs.add(columns::heat_capacity);
+    state.discs.add(columns::vitrinite);
+    for (const char* name : kerogen)
+        state.discs.add<double>(name, "1", 0.0);
+}
+
+HeatCells Heat::cells(const State& state) const {
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> radius = rock_radii(state);
+    const bool compacts = state.discs.has(dem::columns::porosity);
+    const bool layered = state.discs.has(dem::columns::layer);
+    const auto temperature = state.discs.get(columns::temperature);
+    const auto known = state.discs.get(columns::heat_capacity);
+    HeatCells all;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        all.sites.add({d.x[i], d.y[i]}, radius[i], 5.0 * state.mean_radius);
+        all.temperature.push_back(temperature[i]);
+        all.is_new.push_back(known[i] < 0.0);
+        if (d.stratum[i] > 0) {
+            const double porosity =
+                compacts ? state.discs.get(dem::columns::porosity)[i] : setting_.surface_porosity;
+            const double grains = d.mass[i] / setting_.grain_density;
+            all.conductivity.push_back(sediment_conductivity(p_.grain_conductivity, porosity));
+            all.capacity.push_back(grains *
+                                   (grain_capacity + water_capacity * porosity / (1.0 - porosity)));
+            all.production.push_back(grains * p_.heat_production);
+        } else {
+            const std::size_t layer = layered ? state.discs.get(dem::columns::layer)[i] : 0;
+            const double area = d.mass[i] / setting_.rock_densities[layer];
+            all.conductivity.push_back(p_.conductivity);
+            all.capacity.push_back(area * crust_capacity);
+            all.production.push_back(area * p_.heat_production);
+        }
+    }
+    using C = HeatPoints::Columns;
+    const auto x = points_.get<double>(C::x), y = points_.get<double>(C::y);
+    const auto area = points_.get<double>(C::area), reach = points_.get<double>(C::reach);
+    const auto its_temperature = points_.get<double>(C::temperature);
+    const auto crust = points_.get<std::uint8_t>(C::crust);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        all.sites.add({x[k], y[k]}, state.mean_radius, reach[k]);
+        all.temperature.push_back(its_temperature[k]);
+        all.is_new.push_back(false);
+        all.conductivity.push_back(crust[k] ? p_.conductivity : p_.mantle_conductivity);
+        all.capacity.push_back(area[k] * (crust[k] ? crust_capacity : mantle_capacity));
+        all.production.push_back(crust[k] ? area[k] * p_.heat_production : 0.0);
+    }
+    return all;
+}
+
+GroundLine Heat::solved_ground(const State& state, const RigidBase& base) const {
+    constexpr double almost = 0.01; // of the time between solutions: a moment is a cycle early
+    const double since = state.clock.travel.m - schedule().due(applied).m;
+    return ground_line(state, base, setting_.beside,
+                       std::max(0.0, since) + almost * schedule().gap(applied + 1).m);
+}
+
+bool Heat::start(State& state, const RigidBase& base) {
+    const GroundLine ground = ground_line(state, base, setting_.beside);
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const auto temperature = state.discs.get(columns::temperature);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        temperature[i] = geotherm_.at(ground.depth({d.x[i], d.y[i]}));
+    const FacetedCells faceted = site_cells(cells(state).sites, points_.ends(), ground);
+    points_.set_areas(faceted.cells, d.x.size());
+    const HeatCells all = cells(state);
+    const std::size_t discs = d.x.size();
+    std::copy_n(all.capacity.begin(), discs, state.discs.get(columns::heat_capacity).begin());
+    std::copy_n(all.temperature.begin(), discs, state.discs.get(columns::max_temperature).begin());
+    const double in_all = sum_of_products(all.capacity, all.temperature);
+    memory.get<double>(Sums::initial)[0] = memory.get<double>(Sums::stored)[0] = in_all;
+    memory.get<double>(Sums::discs)[0] =
+        sum_of_products(std::span(all.capacity).first(discs), all.temperature);
+    return false;
+}
+
+/// Books what came, went and was expelled since the last application.
+void Heat::book_discs(State& state, const HeatCells& cells) {
+    const auto capacity = state.discs.get(columns::heat_capacity);
+    double known = 0.0;
+    for (std::size_t i = 0; i < capacity.size(); ++i) {
+        const double temperature = cells.temperature[i];
+        if (capacity[i] < 0.0) {
+            memory.get<double>(Sums::came)[0] += cells.capacity[i] * temperature;
+        } else {
+            known += capacity[i] * temperature;
+            memory.get<double>(Sums::expelled)[0] +=
+                (capacity[i] - cells.capacity[i]) * temperature;
+        }
+        capacity[i] = cells.capacity[i];
+    }
+    memory.get<double>(Sums::eroded)[0] += remembered(Sums::discs) - known;
+    memory.get<double>(Sums::rose)[0] += points_.carried_in();
+    memory.get<double>(Sums::sank)[0] += points_.carried_out();
+}
+
+/// Maturity of sediment after a time in which its temperature has come to that of now.
+void Heat::ripen(State& state, std::span<const double> before, double seconds) const {
+    const auto temperature = std::as_const(state).discs.get(columns::temperature);
+    const auto stratum = disc_columns(std::as_const(state)).stratum;
+    const auto highest = state.discs.get(columns::max_temperature);
+    const auto vitrinite = state.discs.get(columns::vitrinite);
+    std::array<std::span<double>, reactions> integrals;
+    for (std::size_t r = 0; r < reactions; ++r)
+        integrals[r] = state.discs.get<double>(kerogen[r]);
+    for (std::size_t i = 0; i < temperature.size(); ++i) {
+        highest[i] = std::max(highest[i], temperature[i]);
+        if (stratum[i] == 0)
+            continue;
+        Maturity maturity;
+        for (std::size_t r = 0; r < reactions; ++r)
+            maturity[r] = integrals[r][i];
+        mature(maturity, before[i], temperature[i], seconds);
+        for (std::size_t r = 0; r < reactions; ++r)
+            integrals[r][i] = maturity[r];
+        vitrinite[i] = vitrinite_reflectance(maturity);
+    }
+}
+
+bool Heat::apply(State& state, const RigidBase& base) {
+    HeatCells all = cells(state);
+    book_discs(state, all);
+    const GroundLine ground = ground_line(state, base, setting_.beside);
+    const HeatNetwork network =
+        heat_network(all.sites, site_cells(all.sites, points_.ends(), ground), all.conductivity);
+    const double seconds = schedule().seconds(applied + 1);
+    const std::vector<double> before = all.temperature;
+    const HeatFlows flows =
+        conduct(network, all.capacity, all.production,
+                {p_.surface_temperature, p_.base_temperature}, seconds, all.temperature);
+    memory.get<double>(Sums::produced)[0] += flows.produced;
+    memory.get<double>(Sums::floor)[0] += flows.through_floor;
+    memory.get<double>(Sums::ground)[0] += flows.through_ground;
+    const std::size_t discs = state.discs.rows();
+    memory.get<double>(Sums::stored)[0] = sum_of_products(all.capacity, all.temperature);
+    memory.get<double>(Sums::discs)[0] =
+        sum_of_products(std::span(all.capacity).first(discs), all.temperature);
+    std::copy_n(all.temperature.begin(), discs, state.discs.get(columns::temperature).begin());
+    std::ranges::copy(std::span(all.temperature).subspan(discs), points_.temperature().begin());
+    ripen(state, before, seconds);
+    return false;
+}
+
+double Heat::balance_error() const {
+    double missing = remembered(Sums::stored), terms = std::abs(missing);
+    const auto count = [&](const char* name, double sign) {
+        missing += sign * remembered(name);
+        terms += std::abs(remembered(name));
+    };
+    for (const char* name : {Sums::initial, Sums::came, Sums::rose, Sums::produced, Sums::floor})
+        count(name, -1.0);
+    for (const char* name : {Sums::eroded, Sums::expelled, Sums::sank, Sums::ground})
+        count(name, 1.0);
+    return terms > 0.0 ? missing / terms : 0.0;
+}
+
+std::vector<double> Heat::anomaly(const State& state, const RigidBase& base,
+                                  std::span<const double> edges) const {
+    std::vector<double> sums(edges.empty() ? 0 : edges.size() - 1, 0.0);
+    const HeatCells all = cells(state);
+    const FacetedCells faceted =
+        site_cells(all.sites, points_.ends(), ground_line(state, base, setting_.beside));
+    for (std::size_t i = 0; i < all.sites.count(); ++i) {
+        const auto after = std::ranges::upper_bound(edges, all.sites.x[i]);
+        if (after == edges.begin() || after == edges.end())
+            continue;
+        sums[static_cast<std::size_t>(after - edges.begin()) - 1] +=
+            faceted.cells[i].area * (all.temperature[i] - geotherm_.at(-all.sites.y[i]));
+    }
+    return sums;
+}
+
+SurfaceHeatFlow::SurfaceHeatFlow(const Heat& heat, const State& state, const RigidBase& base)
+    : ground_temperature_(heat.parameters().surface_temperature) {
+    constexpr double deepest = 6e3; // m: where points are coarse none is nearer
+    const GroundLine ground = heat.solved_ground(state, base);
+    const HeatCells all = heat.cells(state);
+    for (std::size_t i = 0; i < all.sites.count(); ++i) {
+        if (all.is_new[i])
+            continue;
+        const double depth = ground.depth({all.sites.x[i], all.sites.y[i]});
+        if (depth > 0.0 && depth <= deepest)
+            sites_.push_back(
+                {all.sites.x[i], depth, all.temperature[i], 1.0 / all.conductivity[i]});
+    }
+    std::ranges::sort(sites_, [](const Site& a, const Site& b) {
+        return a.x != b.x ? a.x < b.x : a.depth < b.depth;
+    });
+}
+
+double SurfaceHeatFlow::at(double x) const {
+    constexpr double deep = 1e3; // m
+    double half = 1e3;
+    std::vector<Site> window;
+    for (double depth = deep; window.empty() && half < 1e5; half *= 2.0, depth = 3.0 * half) {
+        const auto first = std::ranges::lower_bound(sites_, x - half, {}, &Site::x);
+        for (auto site = first; site != sites_.end() && site->x <= x + half; ++site)
+            if (site->depth <= depth)
+                window.push_back(*site);
+    }
+    std::ranges::sort(window, {}, &Site::depth);
+    double resistivities = 0.0, flow = 0.0, square = 0.0;
+    for (std::size_t k = 0; k < window.size(); ++k) {
+        resistivities += window[k].resistivity;
+        const double resistance = window[k].depth * resistivities / static_cast<double>(k + 1);
+        flow += resistance * (window[k].temperature - ground_temperature_);
+        square += resistance * resistance;
+    }
+    return square > 0.0 ? 1e3 * flow / square : std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace listric::thermal

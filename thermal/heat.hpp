@@ -1,0 +1,95 @@
+#pragma once
+
+#include "thermal/conduction.hpp"
+#include "thermal/geotherm.hpp"
+#include "thermal/heat_points.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace listric::thermal {
+
+/// What conducts heat: the discs by row, then the points.
+struct HeatCells {
+    Sites sites;
+    std::vector<bool> is_new;                 ///< came since the last solution
+    std::vector<double> conductivity;         ///< W/m/K
+    std::vector<double> capacity, production; ///< J/m/K; W/m
+    std::vector<double> temperature;          ///< degrees Celsius
+};
+
+/// Temperature of discs and rock through geological time, and the maturity of sediment.
+///
+/// Discs and points carry their temperature along, so there is no term of advection and no
+/// numerical diffusion; heat flows between neighbours of whatever motion (HeatNetwork). Sediment
+/// comes with the ground's temperature; what is eroded, and the water that compaction expels, takes
+/// its heat along.
+///
+/// Columns of discs: `temperature`, `max_temperature`, `heat_capacity`, `vitrinite` and, of the
+/// reactions behind it, `kerogen_1` on. Memory: one row, see Sums.
+class Heat : public dem::Event {
+public:
+    /// @param points  lives as long, and is applied just before
+    Heat(const HeatParameters& p, const HeatSetting& setting, HeatPoints& points,
+         const dem::Schedule& schedule);
+
+    void begin(dem::State& state) override;
+    bool start(dem::State& state, const dem::RigidBase& base) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
+
+    /// Heat over that at 0 degrees, J/m: at the start and now; that came with sediment and new
+    /// points; went with eroded discs, expelled water and points; was produced; came through the
+    /// floor; and left through the ground.
+    struct Sums {
+        static constexpr const char *initial = "initial", *stored = "stored", *discs = "in_discs",
+                                    *came = "came", *eroded = "eroded", *expelled = "expelled",
+                                    *rose = "rose", *sank = "sank", *produced = "produced",
+                                    *floor = "floor", *ground = "ground";
+    };
+    double remembered(std::string_view name) const { return memory.get<double>(name)[0]; }
+    /// What is missing in that balance, over the sum of its terms.
+    double balance_error() const;
+
+    const HeatParameters& parameters() const { return p_; }
+    const HeatSetting& setting() const { return setting_; }
+    const Geotherm& geotherm() const { return geotherm_; }
+
+    /// All that conducts now.
+    HeatCells cells(const dem::State& state) const;
+
+    /// The ground of the last solution, below the sediment that has come since.
+    GroundLine solved_ground(const dem::State& state, const dem::RigidBase& base) const;
+
+    /// Integral of temperature less that of the start at the same depth over columns between
+    /// places that ascend, by the cells whose sites lie there, K m^2: what thermal expansion loads
+    /// a base with.
+    std::vector<double> anomaly(const dem::State& state, const dem::RigidBase& base,
+                                std::span<const double> edges) const;
+
+private:
+    void book_discs(dem::State& state, const HeatCells& cells);
+    void ripen(dem::State& state, std::span<const double> before, double seconds) const;
+
+    HeatParameters p_;
+    HeatSetting setting_;
+    HeatPoints& points_;
+    Geotherm geotherm_;
+};
+
+/// Heat flow through the ground by the temperatures of its uppermost kilometre, mW/m^2.
+class SurfaceHeatFlow {
+public:
+    SurfaceHeatFlow(const Heat& heat, const dem::State& state, const dem::RigidBase& base);
+
+    /// Mean over 1 km to either side.
+    double at(double x) const;
+
+private:
+    struct Site {
+        double x, depth, temperature, resistivity;
+    };
+    std::vector<Site> sites_; ///< by ascending x
+    double ground_temperature_;
+};
+
+} // namespace listric::thermal

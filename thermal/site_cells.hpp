@@ -1,0 +1,33 @@
+#pragma once
+
+#include "dem/contacts/power_cell.hpp"
+#include "thermal/ground_line.hpp"
+
+#include <span>
+#include <vector>
+
+namespace listric::thermal {
+
+/// Places that have a cell of the section: discs, and points in the rock without discs.
+struct Sites {
+    std::vector<double> x, y, radius;
+    std::vector<double> reach; ///< about twice the distance to its neighbours, m
+
+    std::size_t count() const { return x.size(); }
+    void add(dem::Point p, double disc_radius, double its_reach);
+};
+
+/// Ends of the section, m.
+struct SectionEnds {
+    double left, right, floor;
+};
+
+/// Power cells of the sites, which fill the section below the ground. No gap is left out, and no
+/// fault and no base cuts them: rock and sediment touch each other there.
+///
+/// A cell ends at the line that the ground is where it is nearest, at least half a radius from its
+/// centre, for the ground is smoother than the discs (facet_on_lid); on the section's floor
+/// (facet_on_base) and at its sides (facet_open).
+dem::FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground);
+
+} // namespace listric::thermal
