@@ -5,7 +5,7 @@
 #include "apps/measures/basin/dilation.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
-#include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "coupling/water_load.hpp"

@@ -10,7 +10,7 @@
 #include "apps/measures/faults/rock_behaviour.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/strata/horizons.hpp"
-#include "apps/model/effects/stage_measures.hpp"
+#include "apps/model/effects/stage/measures.hpp"
 #include "apps/scene/toml/json_text.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"

@@ -1,8 +1,8 @@
 #include "apps/scene/parameters/stages.hpp"
 
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/stage_measures.hpp"
-#include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage/measures.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/base_words.hpp"
 #include "apps/support/words/spelling.hpp"

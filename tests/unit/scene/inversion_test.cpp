@@ -1,7 +1,7 @@
 // Measures of inversion on sections that are known: a raised slab, a rollover with a graben, strata
 // that shortening has lifted by what they had sunk.
 
-#include "apps/model/effects/stage_measures.hpp"
+#include "apps/model/effects/stage/measures.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Strain and displacement of rock since a pause began, and those of the newest once it is over.
 // Made motions, exact up to round-off.
 
-#include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "dem/events/strain.hpp"
 #include "tests/support.hpp"
 

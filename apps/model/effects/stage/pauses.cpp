@@ -1,4 +1,4 @@
-#include "apps/model/effects/stage_pauses.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 
 #include "dem/base/rest.hpp"
 #include "dem/base/target_line.hpp"

@@ -1,4 +1,4 @@
-#include "apps/model/effects/stage_measures.hpp"
+#include "apps/model/effects/stage/measures.hpp"
 
 #include "dem/base/just_before.hpp"
 #include "dem/columns.hpp"
