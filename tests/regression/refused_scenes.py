@@ -81,6 +81,9 @@ def refused_scenes():
         "two waters of which one falls": (without(elastic, "distance_m") + table("[pore_fluid]")
                                           + stage(distance_m=1000.0, water_level_m=-100.0)),
         "a level of no water": free + stage(distance_m=1000.0, water_level_m=-100.0),
+        "a crust thinner than the hanging wall": lis1 + table("[heat]", crust_m=10e3),
+        "a crust that makes too much heat": lis1 + table("[heat]", heat_production_w_per_m3=1e-5),
+        "a mantle that stretches below a crust that rests": lis1 + table("[heat]", mantle_width_m=1e5),
         "water without compaction": without(lis1, "[compaction]") + table("[pore_fluid]"),
         "water without sediment": dry + table("[pore_fluid]"),
         "water of the basin on a rigid base": lis1 + table("[basin_water]"),
