@@ -72,6 +72,7 @@ EXPLAINED = {
     "sedimentation": "theory/sediment.md#deposition-and-erosion",
     "pore_fluid": "theory/pore-fluid.md#flow",
     "compaction": "theory/sediment.md#compaction",
+    "heat": "explain/heat.md#what-is-solved",
     "energy": "theory/cycle.md#energy",
     "elastic_base": "theory/elastic-base.md#elastic-body",
     "elastic_base.elastic_thickness_m": "guides/choosing.md#elastic-thickness",

@@ -87,9 +87,10 @@ SectionEnds section_ends(const HeatParameters& p, const HeatSetting& setting) {
 
 double estimated_points(const SectionEnds& ends, double edge, double mean_radius) {
     const double finest = 3.0 * mean_radius, growth = 0.06;
-    // Rows along the edge, each wider than the one before, and what is as wide as can be.
-    return 1.4 * edge / (growth * finest) +
-           (ends.right - ends.left) * -ends.floor / (widest * widest);
+    // Rows along the edge, each wider than the one before, and what is as wide as can be; the
+    // factors are those of lis1, whose cells are smaller than wanted by up to a half.
+    return 4.6 * edge / (growth * finest) +
+           1.2 * (ends.right - ends.left) * -ends.floor / (widest * widest);
 }
 
 HeatPoints::HeatPoints(const HeatParameters& p, const HeatSetting& setting,

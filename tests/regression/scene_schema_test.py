@@ -34,7 +34,9 @@ BEYOND_A_SCHEMA = {
                                r"which a base under discs is condensed with|"
                                r"elastic_base: (?!needs)|halves elements|sinks without end|"
                                r"outside of the footwall|pore_fluid: (weighs|needs sediment)|"
-                               r"the density of grains|a multiple of the interval",
+                               r"the density of grains|a multiple of the interval|above crust_m|"
+                               r"the hanging wall is crust|above surface_temperature_c|makes more heat than|"
+                               r"no lower crust stretches",
     "layers": r"needs (name|material|one of )|upside down|below the detachment|less than a mean disc|overlaps|"
               r"four strengths|of two layers|weakened rock cannot have|is about bonds|two a layer",
     "beds of sediment": r"only the last bed|the last bed|beds come from the oldest|no stratum ends|two laws of one|"

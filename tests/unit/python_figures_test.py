@@ -574,6 +574,21 @@ class Drawing(Folder):
         self.assertEqual(wells.draw({**well, **self.STAGES[1]}).texts[0].get_text(), f"LIS1, {after[1]}")
         self.assertEqual(wells.draw({**well, "extension_km": "2.0"}).texts[0].get_text(), "LIS1, 2.0 km of extension")
 
+    def test_wells_have_the_panels_of_what_they_have(self):
+        columns = {"depth_m": [100.0, 200.0], "temperature_c": [20.0, 30.0], "max_temperature_c": [20.0, 30.0],
+                   "vitrinite_percent": [0.2, 0.3], "porosity": [0.4, 0.3]}
+        frame = {"scene": "lis1", "extension_km": "2.0", "wells": [{"name": "flank", "x_m": 100.0, "columns": columns}],
+                 "profiles": [{"label": "heat flow", "unit": "mW/m2", "x_m": [0.0, 1e3], "values": [50.0, 60.0]}]}
+        drawn = wells.draw(frame)
+        self.assertEqual([ax.get_xlabel() for ax in drawn.axes],
+                         ["Distance from the breakaway (km)", "Temperature (°C)", "Vitrinite reflectance (%)", "Porosity"])
+        self.assertEqual(drawn.axes[0].get_ylabel(), "Heat flow (mW/m²)")
+        frame["profiles"][0]["values"] = [50.0]
+        with self.assertRaisesRegex(wells.InputError, "of one length"):
+            wells.draw(frame)
+        with self.assertRaisesRegex(wells.InputError, "the columns of a panel"):
+            wells.draw({**frame, "wells": [{"name": "flank", "x_m": 100.0, "columns": {"depth_m": [1.0]}}]})
+
     def test_small_models_are_told_in_metres_as_on_their_axes(self):
         meta = {"extension_m": 0.012, "extension_km": "0.000012", "end_a": 4.0, "interval_a": 0.4, "time_a": 1.2, "right_wall_x_m": 0.4,
                 "level_m": 0.0}

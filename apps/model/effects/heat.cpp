@@ -173,7 +173,7 @@ const Effect& effect() {
         .explain = explain,
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.applications(schedule(scene).interval, dem::InSteps::once) * 1000.0 *
+                return work.applications(schedule(scene).interval, dem::InSteps::once) * 300.0 *
                        (work.discs + points(scene));
             },
         .memory = memory,
