@@ -135,6 +135,7 @@ const std::set<std::string> means_time{
     "stage.step_a",                      // and a part of it
     "fault_weakening.heal_after_a",      // off; one who states it means years
     "fault_weakening.strain_rate_per_s", // off; the paper's other definition of a fault
+    "heat.interval_a", // heat diffuses in years; a length of travel bounds it, too
 };
 
 TEST(Rate, EveryTimeAndStrainRateOfAnEffectFollowsOrMeansTime) {
