@@ -136,6 +136,7 @@ const std::set<std::string> means_time{
     "bed.until_a",                       // an age that the scene is about
     "fault_weakening.heal_after_a",      // off; one who states it means years
     "fault_weakening.strain_rate_per_s", // off; the paper's other definition of a fault
+    "heat.interval_a", // heat diffuses in years; a length of travel bounds it, too
 };
 
 TEST(Rate, EveryTimeAndStrainRateOfAnEffectFollowsOrMeansTime) {

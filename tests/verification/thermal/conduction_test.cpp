@@ -113,7 +113,8 @@ TEST(Conduction, AContrastOfTen) {
 // Backward Euler of 1/200 of the decay is 0.25 % late, rows of 1/25 of the depth 0.1 %.
 TEST(Conduction, AWaveDecays) {
     constexpr double depth = 125e3, kappa = 0.8e-6, rho_c = 4.1e6;
-    for (const auto& [wave, expected] : {std::pair{100e3, 8.65}, std::pair{200e3, 24.5}}) {
+    for (const auto& wave_and_time : {std::pair{100e3, 8.65}, std::pair{200e3, 24.5}}) {
+        const double wave = wave_and_time.first, expected = wave_and_time.second;
         const double width = wave;
         Section section(jittered_rows(width, depth, 2.5e3, 0.4), width, depth, kappa * rho_c,
                         rho_c);
