@@ -74,12 +74,13 @@ void name_ensembles(std::vector<Ensemble>& ensembles) {
     const auto all = static_cast<std::size_t>(ensembles.size());
     for (Ensemble& e : ensembles) {
         std::string title;
-        for (const auto& [key, value] : e.scene) {
+        for (const auto& entry : e.scene) {
+            const std::string& key = entry.first;
             const auto has = static_cast<std::size_t>(std::ranges::count_if(
                 ensembles, [&](const Ensemble& other) { return other.scene.contains(key); }));
             if (!key.starts_with("[") && key != "description" &&
                 (values[key].size() > 1 || has < all))
-                title += fmt::format("{}{} = {}", title.empty() ? "" : ", ", key, value);
+                title += fmt::format("{}{} = {}", title.empty() ? "" : ", ", key, entry.second);
         }
         if (!title.empty())
             e.title = title;

@@ -428,7 +428,7 @@ TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
         error(minimal + "[magnetism]\n"),
         AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
               HasSubstr("hanging_wall, detachment"),
-              EndsWith("compaction, bed, energy, elastic_base, lower_crust_thinning, "
+              EndsWith("compaction, bed, heat, energy, elastic_base, lower_crust_thinning, "
                        "basin_water, footwall_erosion, base_motion, stage")));
 }
 
@@ -1041,11 +1041,15 @@ TEST_F(SceneTest, TheReferenceHasEveryParameter) {
 TEST_F(SceneTest, KeysEndWithTheirUnits) {
     for (const SceneTable& table : all_tables())
         for (const Parameter& parameter : table.parameters) {
-            std::string unit(parameter.unit); // kg/m3: _kg_per_m3, 1/s: _per_s, Pa s: _pa_s
+            std::string unit(parameter.unit); // kg/m3: _kg_per_m3, 1/s: _per_s, Pa s: _pa_s,
+                                              // W/m/K: _w_per_m_k, degC: _c
             std::ranges::replace(unit, ' ', '_');
             std::ranges::transform(unit, unit.begin(), [](char c) { return std::tolower(c); });
             if (const auto slash = unit.find('/'); slash != unit.npos)
                 unit.replace(slash, 1, "_per_");
+            std::ranges::replace(unit, '/', '_');
+            if (unit == "degc")
+                unit = "c";
             if (unit.starts_with("1_"))
                 unit.erase(0, 2);
             if (!unit.empty()) {
