@@ -27,7 +27,7 @@ def ishigami(x):
 
 class EmulatorOfMeasures(unittest.TestCase):
     def test_indices_of_ishigami(self):
-        x, point = design(500, 3)
+        x, point = design(400, 3)
         emulator = fit(x, ishigami(x), point)
         self.assertEqual(emulator.verdict, "yes")
         first, total = sobol(emulator, 3)

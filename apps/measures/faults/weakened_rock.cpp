@@ -56,7 +56,7 @@ std::vector<Rows> bands(const State& state, const std::vector<bool>& weak) {
 }
 
 /// Greatest extent in any of twelve directions, m: at least 0.99 of the true one.
-double length_of(const Rows& band, const ConstDiscColumns& d) {
+double band_length(const Rows& band, const ConstDiscColumns& d) {
     constexpr int directions = 12;
     double length = 0.0;
     for (int k = 0; k < directions; ++k) {
@@ -82,7 +82,7 @@ std::vector<bool> weakened_by_faults(const State& state, std::span<const Fault> 
     const std::vector<bool> weak = weakened(state);
     std::vector<bool> of_one(weak.size(), false);
     for (const Rows& band : bands(state, weak))
-        if (length_of(band, d) >= FaultTraceOptions{}.least_length * diameter)
+        if (band_length(band, d) >= FaultTraceOptions{}.least_length * diameter)
             for (const std::int32_t row : band)
                 of_one[static_cast<std::size_t>(row)] = true;
     for (std::size_t i = 0; i < weak.size(); ++i)
