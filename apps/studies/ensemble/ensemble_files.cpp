@@ -1,4 +1,5 @@
 #include "apps/archive/folder/output_folder.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/studies/ensemble/ensemble.hpp"
 #include "apps/support/files/csv_records.hpp"
 #include "apps/support/files/file.hpp"
@@ -110,7 +111,7 @@ std::vector<fs::path> draw_ensembles(const fs::path& folder, bool page) {
     for (const Ensemble& ensemble : ensembles)
         data.push_back(ensemble_json(ensemble, folder));
     const TemporaryFolder place(folder);
-    write_text(place.path / "seeds.json", Json{{"ensembles", data}}.dump());
+    write_text(place.path / "seeds.json", to_text(Json{{"ensembles", data}}));
     run_drawing_script("seeds.py", {(place.path / "seeds.json").string(),
                                     fs::absolute(folder).string(), page ? "page" : "picture"});
     std::vector<fs::path> files{folder / "seeds.png"};

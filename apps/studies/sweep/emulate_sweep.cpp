@@ -1,4 +1,5 @@
 #include "apps/archive/folder/output_folder.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/studies/sweep/sweep.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
@@ -54,7 +55,7 @@ void emulate_sweep(const SweepRequest& request, int suggest) {
     for (const SweepMeasure& measure : plan.measures)
         order["measures"].push_back(measure.text);
     const TemporaryFolder place(folder);
-    write_text(place.path / "order.json", order.dump());
+    write_text(place.path / "order.json", to_text(order));
     run_script_with("sklearn", "python3-sklearn", "emulator.py",
                     {fs::absolute(table).string(), (place.path / "order.json").string(),
                      fs::absolute(folder).string(), std::to_string(suggest)});

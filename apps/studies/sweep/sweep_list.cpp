@@ -1,6 +1,7 @@
 #include "apps/archive/folder/output_folder.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/forecast/prediction.hpp"
+#include "apps/scene/toml/json_text.hpp"
 #include "apps/studies/sweep/sweep.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/sweep/sweep_table.hpp"
@@ -120,7 +121,7 @@ void list_sweep(const SweepRequest& request, bool as_json) {
                                  std::ceil(price.disk_mb));
     }
     if (as_json)
-        std::cout << list.dump(2) << "\n";
+        std::cout << to_text(list, 2) << "\n";
 }
 
 } // namespace listric

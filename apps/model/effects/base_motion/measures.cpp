@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace listric::effects::base_motion {
@@ -33,27 +32,10 @@ double path_dip(const SlippedFault& fault, double x) {
     return dem::arc_tangent(fault.height, fault.foot.x - x) * degrees;
 }
 
-/// The fit of a moment, made once for its four numbers: the last one is kept with what it is of.
-const std::optional<TrishearFit>& trishear_of(const dem::State& state, const SlippedFault& fault) {
-    struct Kept {
-        std::vector<MarkerTop> tops;
-        SlippedFault fault;
-        std::optional<TrishearFit> fit;
-    };
-    thread_local Kept last;
-    std::vector<MarkerTop> tops = marker_tops(state, fault);
-    if (tops != last.tops || fault != last.fault) {
-        last.fit = fit_trishear(tops, fault);
-        last.tops = std::move(tops);
-        last.fault = fault;
-    }
-    return last.fit;
-}
-
 std::optional<double> of_trishear(const Observation& now,
                                   double (*number)(const TrishearFit&, const SlippedFault&)) {
     return of_fault(now, [&](const SlippedFault& fault, const GroundRecord&) {
-        const auto& fit = trishear_of(now.state, fault);
+        const auto fit = fit_trishear(marker_tops(now.state, fault), fault);
         return fit ? std::optional(number(*fit, fault)) : std::nullopt;
     });
 }
