@@ -16,7 +16,6 @@ struct SlippedFault {
     double height = 0.0; ///< of the ground above the base at the start, m
 
     double throw_of_slip() const; ///< m, without sign
-    bool operator==(const SlippedFault&) const = default;
 };
 
 /// At an extension, m; none where no fault cuts the base.

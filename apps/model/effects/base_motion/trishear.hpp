@@ -29,7 +29,6 @@ dem::Point carried(dem::Point p, const Trishear& shear, const SlippedFault& faul
 struct MarkerTop {
     double level = 0.0;             ///< at the start, m
     std::vector<dem::Point> points; ///< now
-    bool operator==(const MarkerTop&) const = default;
 };
 
 struct TrishearFit : Trishear {
