@@ -78,15 +78,19 @@ class Launcher(unittest.TestCase):
             (folder / name).symlink_to(shutil.which(name))
         return folder
 
-    def call(self, *words, launcher=None, code=0, user=None, **environment):
-        """What it wrote to its streams."""
+    def environment(self, **more):
+        """A user's, whatever build or queue these tests run in."""
         kept = {name: value for name, value in os.environ.items()
                 if not name.startswith(("LISTRIC_", "OMPI_", "PMI_", "SLURM_"))}
+        return {**kept, "PATH": self.path, "NOTES": str(self.notes), **more}
+
+    def call(self, *words, launcher=None, code=0, user=None, **environment):
+        """What it wrote to its streams."""
         with open(self.notes / "stderr", "w") as stderr:
             done = subprocess.run(
                 [launcher or self.root / "listric", *words], stdout=subprocess.PIPE, stderr=stderr, text=True,
                 cwd=self.place, user=user, check=False, stdin=subprocess.DEVNULL,
-                env={**kept, "PATH": self.path, "NOTES": str(self.notes), **environment})
+                env=self.environment(**environment))
         said = (self.notes / "stderr").read_text()
         self.assertEqual(done.returncode, code, said)
         return done.stdout, said
@@ -140,7 +144,7 @@ class Launcher(unittest.TestCase):
         """Exit code and text of a call at a terminal, at which somebody types."""
         leader, terminal = pty.openpty()
         process = subprocess.Popen([self.root / "listric", *words], stdin=terminal, stdout=terminal, stderr=terminal,
-                                   cwd=self.place, env={**os.environ, "PATH": self.path, "NOTES": str(self.notes)})
+                                   cwd=self.place, env=self.environment())
         os.close(terminal)
         os.write(leader, answer)
         said = read_terminal(leader)
