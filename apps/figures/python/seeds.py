@@ -3,11 +3,12 @@
 
 Usage: seeds.py FILE DIR picture|page
 
-FILE is the JSON that the program makes of the runs; DIR gets seeds.png: for each scene the faults of all
-seeds on one section with the mean of the tops and their standard deviation, and below it, by kilometre, the
-share of seeds with a fault's upper end there, with its exact 90 % interval.  With "page" DIR gets
-report.html, too: the picture, the measures as points that open their runs, and a table.  Files are written
-under temporary names and then renamed.  On bad input: one line on stderr, exit status 2.
+FILE is the JSON that the program makes of the runs; DIR gets seeds.png: for each scene the faults and block
+edges of all seeds on one section with the mean of the tops and their standard deviation, and below it, by
+kilometre, the share of seeds with a fault's upper end there, with its exact 90 % interval; and
+seeds-apart.png: a small section of each seed.  With "page" DIR gets report.html, too: the pictures, the
+measures as points that open their runs, and a table.  Files are written under temporary names and then
+renamed.  On bad input: one line on stderr, exit status 2.
 """
 import base64
 import html
@@ -20,9 +21,12 @@ sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import FAINT, INK, STYLE, LineCollection, matplotlib, new_figure, np, read_json, run, save, without_frame
 from script import InputError
 
-SYNTHETIC, ANTITHETIC, TOP, CHANCE = "#b4561d", "#1f6fb4", "#444444", "#8a8a8a"
+SYNTHETIC, ANTITHETIC, EDGE, TOP, CHANCE = "#b4561d", "#1f6fb4", "#2e7d32", "#444444", "#8a8a8a"
 WIDTH, SECTION, CHANCES, ROW_EXTRA = 10.0, 3.1, 1.15, 0.95   # inches
 MOST_SCENES, MOST_TOPS = 12, 8
+COLUMNS, MOST_APART = 4, 24   # small sections beside each other, and of a scene
+LINES = ("faults that are active at the end: orange dip as the detachment does, blue against it; green: edges of "
+         "blocks that moved as one")
 SHOWN = ("greatest_throw_m", "depocentre_x_m", "depocentre_thickness_m", "rollover_tilt_deg",
          "halfgraben_area_share", "basin_area_m2", "cutoff_x_m", "strain_top10", "strain_top10_cumulative",
          "intervening_high_x_m", "basement_unbonded_fraction")
@@ -35,30 +39,41 @@ def chosen(tops: list[dict]) -> list[dict]:
     return [tops[round(k * (len(tops) - 1) / (MOST_TOPS - 1))] for k in range(MOST_TOPS)]
 
 
-def draw_section(ax, scene: dict) -> None:
-    for top in chosen(scene.get("tops", [])):
-        x, mean, deviation = (np.array(top[key]) / 1e3 for key in ("x", "mean", "deviation"))
-        gaps = np.flatnonzero(np.diff(x) > 0.3) + 1
-        for part in zip(*(np.split(values, gaps) for values in (x, mean, deviation))):
-            ax.fill_between(part[0], part[1] - part[2], part[1] + part[2], color=TOP, alpha=0.13, lw=0)
-            ax.plot(part[0], part[1], color=TOP, lw=1.1 if top["stratum"] == 0 else 0.6)
+def gaps(x: np.ndarray) -> np.ndarray:
+    """Where a line ends and another begins, km."""
+    return np.flatnonzero(np.diff(x) > 0.3) + 1
+
+
+def draw_lines(ax, scene: dict, runs: list[dict], width: float) -> None:
+    """Base, faults and block edges of runs."""
+    faint = max(0.3, 1.0 / len(runs) ** 0.4)
     for synthetic, colour in ((True, SYNTHETIC), (False, ANTITHETIC)):
-        lines = [np.array(fault["points"]) / 1e3 for seed in scene["runs"] for fault in seed["faults"]
+        lines = [np.array(fault["points"]) / 1e3 for seed in runs for fault in seed["faults"]
                  if fault["synthetic"] is synthetic]
-        faint = max(0.3, 1.0 / len(scene["runs"]) ** 0.4)
-        ax.add_collection(LineCollection(lines, colors=colour, linewidths=1.0, alpha=faint))
+        ax.add_collection(LineCollection(lines, colors=colour, linewidths=width, alpha=faint))
+    edges = [np.array(edge) / 1e3 for seed in runs for edge in seed["edges"]]
+    ax.add_collection(LineCollection(edges, colors=EDGE, linewidths=width, alpha=faint, linestyles=(0, (4, 2))))
     if scene["base"]:
         base = np.array(scene["base"]) / 1e3
-        ax.plot(base[:, 0], base[:, 1], color=INK, lw=1.4)
+        ax.plot(base[:, 0], base[:, 1], color=INK, lw=1.4 * width)
     ax.set_xlim(0.0, scene["length_m"] / 1e3)
     ax.set_ylim(-1.03 * scene["depth_m"] / 1e3, 0.09 * scene["depth_m"] / 1e3)
     ax.set_aspect("equal", adjustable="box", anchor="SW")
+    without_frame(ax)
+
+
+def draw_section(ax, scene: dict) -> None:
+    for top in chosen(scene.get("tops", [])):
+        x, mean, deviation = (np.array(top[key]) / 1e3 for key in ("x", "mean", "deviation"))
+        for part in zip(*(np.split(values, gaps(x)) for values in (x, mean, deviation))):
+            ax.fill_between(part[0], part[1] - part[2], part[1] + part[2], color=TOP, alpha=0.13, lw=0)
+            ax.plot(part[0], part[1], color=TOP, lw=1.1 if top["stratum"] == 0 else 0.6)
+    draw_lines(ax, scene, scene["runs"], 1.0)
     ax.set_ylabel("y, km")
     ax.tick_params(labelbottom=False)
     seeds = len(scene["runs"])
     ax.set_title(f"{scene['title']}: {seeds} seed{'s' if seeds > 1 else ''} at "
                  f"{scene['runs'][0]['extension_m'] / 1e3:.3g} km", loc="left", fontsize=10, weight="semibold")
-    without_frame(ax)
 
 
 def draw_chances(ax, scene: dict) -> None:
@@ -79,18 +94,49 @@ def draw(scenes: list[dict]):
     shown = scenes[:MOST_SCENES]
     high = (WIDTH - 1.0) * max(1.12 * scene["depth_m"] / scene["length_m"] for scene in shown)
     row = high + CHANCES + ROW_EXTRA
-    up = len(shown) * row + 0.35
+    up = len(shown) * row + 0.45
     figure = new_figure(WIDTH, up, 130)
     for k, scene in enumerate(shown):
-        bottom = up - (k + 1) * row + 0.5
+        bottom = up - (k + 1) * row + 0.6
         wide = (WIDTH - 1.0) / WIDTH
         draw_chances(figure.add_axes((0.75 / WIDTH, bottom / up, wide, (CHANCES - 0.25) / up)), scene)
         draw_section(figure.add_axes((0.75 / WIDTH, (bottom + CHANCES - 0.1) / up, wide, high / up)), scene)
     left_out = len(scenes) - len(shown)
-    figure.text(0.1 / WIDTH, 0.12 / up, "faults that are active at the end: orange dip as the detachment does, blue "
-                "against it; tops: mean and standard deviation; bars: a fault's upper end in this km, "
+    figure.text(0.1 / WIDTH, 0.12 / up, f"{LINES}\ntops: mean and standard deviation; bars: a fault's upper end in this km, "
                 "line: exact 90 % interval"
-                + (f"; {left_out} more scenes are in the tables" if left_out else ""), fontsize=7.5, color=FAINT)
+                + (f"; {left_out} more scenes are in the tables" if left_out else ""), fontsize=7, color=FAINT)
+    return figure
+
+
+def draw_seed(ax, scene: dict, seed: dict) -> None:
+    for top in chosen(seed["tops"]):
+        x, y = (np.array(top[key]) / 1e3 for key in ("x", "y"))
+        for part in zip(*(np.split(values, gaps(x)) for values in (x, y))):
+            ax.plot(*part, color=TOP, lw=0.9 if top["stratum"] == 0 else 0.4)
+    draw_lines(ax, scene, [seed], 0.8)
+    ax.set_xticks(())
+    ax.set_yticks(())
+    ax.set_title(f"seed {seed['seed']}", loc="left", fontsize=7.5, pad=1.0)
+
+
+def draw_apart(scenes: list[dict]):
+    """A small section of each seed."""
+    shown = [(scene, scene["runs"][:MOST_APART]) for scene in scenes[:MOST_SCENES]]
+    wide = (WIDTH - 0.2) / COLUMNS
+    heights = [(wide - 0.15) * 1.12 * scene["depth_m"] / scene["length_m"] + 0.25 for scene, _ in shown]
+    up = 0.35 + sum(0.35 + high * -(-len(runs) // COLUMNS) for (_, runs), high in zip(shown, heights))
+    figure = new_figure(WIDTH, up, 130)
+    below = up
+    for (scene, runs), high in zip(shown, heights):
+        more = f", {len(runs)} of {len(scene['runs'])} seeds" if len(runs) < len(scene["runs"]) else ""
+        figure.text(0.1 / WIDTH, (below - 0.22) / up, scene["title"] + more, fontsize=10, weight="semibold")
+        below -= 0.35
+        for k, seed in enumerate(runs):
+            row, column = divmod(k, COLUMNS)
+            place = (0.1 + column * wide) / WIDTH, (below - (row + 1) * high) / up
+            draw_seed(figure.add_axes((*place, (wide - 0.15) / WIDTH, (high - 0.2) / up)), scene, seed)
+        below -= high * -(-len(runs) // COLUMNS)
+    figure.text(0.1 / WIDTH, 0.12 / up, LINES, fontsize=7, color=FAINT)
     return figure
 
 
@@ -118,8 +164,10 @@ def scatter(scenes: list[dict], measure: str) -> str:
 
 
 def page(scenes: list[dict], folder: str) -> str:
-    with open(os.path.join(folder, "seeds.png"), "rb") as file:
-        picture = base64.b64encode(file.read()).decode()
+    pictures = {}
+    for name in "seeds", "seeds-apart":
+        with open(os.path.join(folder, f"{name}.png"), "rb") as file:
+            pictures[name] = "data:image/png;base64," + base64.b64encode(file.read()).decode()
     measures = [name for name in SHOWN if any(name in seed["measures"] for scene in scenes for seed in scene["runs"])]
     rows = "".join(
         f'<tr><td>{k}</td><td>{html.escape(scene["title"])}</td><td><a href="{quote(seed["folder"])}/'
@@ -135,7 +183,8 @@ figure{{display:inline-block;margin:0 1rem 1rem 0}}svg text{{font-size:11px;fill
 circle{{fill:#1f6fb4;fill-opacity:.6}}circle:hover{{fill:#b4561d}}
 table{{border-collapse:collapse;font-size:13px}}td,th{{padding:.15rem .6rem;text-align:right}}</style></head>
 <body><h1>{number} runs, {len(scenes)} scene{"s" if len(scenes) > 1 else ""}</h1>
-<p><img alt="faults of all seeds on one section" src="data:image/png;base64,{picture}"></p>
+<p><img alt="faults of all seeds on one section" src="{pictures["seeds"]}"></p>
+<details><summary>Each seed apart</summary><img alt="a section of each seed" src="{pictures["seeds-apart"]}"></details>
 <h2>Measures</h2><p>A point is a run; a click opens it. Numbers below are those of the scenes in the table.</p>
 {"".join(scatter(scenes, name) for name in measures)}
 <h2>Runs</h2><table><tr><th></th><th>scene</th><th>run</th><th>seed</th>
@@ -151,6 +200,7 @@ def main(path: str, folder: str, kind: str) -> None:
         scenes = read_json(path)["ensembles"]
         with matplotlib.rc_context(STYLE):
             save(draw(scenes), folder, "seeds")
+            save(draw_apart(scenes), folder, "seeds-apart")
         if kind == "page":
             text = page(scenes, folder)
     except (KeyError, TypeError, IndexError) as failure:

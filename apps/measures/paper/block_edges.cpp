@@ -6,6 +6,7 @@
 #include "dem/numbers/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -132,6 +133,21 @@ struct Block {
     std::vector<char> core; ///< by disc of the basement
     double lowest = 0.0;    ///< height to which the edge is the fault's, m
 };
+
+/// The outer block and the head block, which is none without tilt.
+std::array<Block, 2> blocks_of(const RunSoFar& run, const Basement& rock,
+                               std::optional<double> rollover_tilt) {
+    const double flat = run.detachment.back().end.y;
+    Block outer{"antithetic", BlockSide::right, {}, (1.0 - around_bend) * flat};
+    Block head{"synthetic", BlockSide::left, std::vector<char>(rock.rows.size(), 0), 0.5 * flat};
+    for (const Point p : rock.start)
+        outer.core.push_back(p.x > run.setting.length - core_width);
+    if (rollover_tilt)
+        for (const std::size_t row : head_block(run.now, run.detachment, run.setting.thickness))
+            head.core[static_cast<std::size_t>(std::ranges::lower_bound(rock.rows, row) -
+                                               rock.rows.begin())] = 1;
+    return {std::move(outer), std::move(head)};
+}
 
 /// The edge of a block and its discs.
 struct Edge {
@@ -329,21 +345,24 @@ double edge_at(const Polyline& edge, double y) {
     return x;
 }
 
+std::vector<Polyline> trace_block_edges(const RunSoFar& run, std::optional<double> rollover_tilt) {
+    if (!run.setting.has_detachment || !(run.extension.m > 0.0))
+        return {};
+    const Basement rock = basement_of(run);
+    std::vector<Polyline> edges;
+    for (const Block& block : blocks_of(run, rock, rollover_tilt))
+        if (auto edge = find_edge(block, rock.start, rock.now, run.extension, run.diameter))
+            edges.push_back(std::move(edge->points));
+    return edges;
+}
+
 NamedNumbers measure_block_edges(const RunSoFar& run, std::optional<double> rollover_tilt) {
     constexpr double least_tilt = 1.0; // degrees
     if (run.past.empty() || !run.setting.has_detachment || !(run.extension.m > 0.0))
         return {};
     const Basement rock = basement_of(run);
     const std::vector<Point> before = places_then(run, rock, run.past.back().places);
-    const double flat = run.detachment.back().end.y;
-    Block outer{"antithetic", BlockSide::right, {}, (1.0 - around_bend) * flat};
-    Block head{"synthetic", BlockSide::left, std::vector<char>(rock.rows.size(), 0), 0.5 * flat};
-    for (const Point p : rock.start)
-        outer.core.push_back(p.x > run.setting.length - core_width);
-    if (rollover_tilt)
-        for (const std::size_t row : head_block(run.now, run.detachment, run.setting.thickness))
-            head.core[static_cast<std::size_t>(std::ranges::lower_bound(rock.rows, row) -
-                                               rock.rows.begin())] = 1;
+    const auto [outer, head] = blocks_of(run, rock, rollover_tilt);
     NamedNumbers numbers;
     for (const Block* block : {&outer, &head}) {
         const auto whole = find_edge(*block, rock.start, rock.now, run.extension, run.diameter);

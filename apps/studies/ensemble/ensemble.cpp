@@ -6,6 +6,7 @@
 #include "apps/archive/folder/setting.hpp"
 #include "apps/archive/tables/exports.hpp"
 #include "apps/archive/tables/fault_fields.hpp"
+#include "apps/measures/paper/block_edges.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
@@ -142,6 +143,10 @@ void read_run(const fs::path& folder, std::vector<Ensemble>& ensembles) {
         if (horizon.stratum >= 0)
             end.tops[horizon.stratum] = heights(horizon.top, columns);
     add_results(end, read_object(folder / "summary.json"));
+    const auto tilt = end.measures.find("rollover_tilt_deg");
+    end.edges = measures::trace_block_edges({setting, run.parts.base, moment.state, {}},
+                                            tilt != end.measures.end() ? std::optional(tilt->second)
+                                                                       : std::nullopt);
     found->runs.push_back(std::move(end));
 }
 

@@ -26,6 +26,7 @@ struct EnsembleRun {
     int seed = 0;
     double extension = 0.0; ///< m
     std::vector<EnsembleFault> faults = {};
+    std::vector<measures::Polyline> edges = {}; ///< of the blocks that moved as one, m
     /// Tops of strata by their number, 0 the pre-rift top: heights at columns of ensemble_column
     /// from x = 0 on, m; not finite where there is none.
     std::map<int, std::vector<double>> tops = {};
@@ -63,9 +64,9 @@ struct TopSpread {
 };
 std::vector<TopSpread> top_spreads(const Ensemble& ensemble);
 
-/// Writes seeds.csv, seed-tops.csv, seed-measures.csv and draws seeds.png in a folder of runs; with
-/// `page` writes report.html, too. Returns the picture and the page. Throws UsageError,
-/// SceneError, StorageError.
+/// Writes seeds.csv, seed-tops.csv, seed-measures.csv and draws seeds.png and seeds-apart.png in a
+/// folder of runs; with `page` writes report.html, too. Returns the pictures and the page. Throws
+/// UsageError, SceneError, StorageError.
 std::vector<std::filesystem::path> draw_ensembles(const std::filesystem::path& folder, bool page);
 
 /// Whether a folder holds runs in folders of their own, and is none itself.

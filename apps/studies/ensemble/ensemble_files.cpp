@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace listric {
@@ -66,23 +67,42 @@ Json points_json(const measures::Polyline& points) {
     return list;
 }
 
+/// Heights without what is none.
+Json top_json(int stratum, const std::vector<double>& heights) {
+    Json x = Json::array(), y = Json::array();
+    for (std::size_t c = 0; c < heights.size(); ++c)
+        if (std::isfinite(heights[c])) {
+            x.push_back(static_cast<double>(c) * ensemble_column);
+            y.push_back(heights[c]);
+        }
+    return {{"stratum", stratum}, {"x", x}, {"y", y}};
+}
+
+Json run_json(const EnsembleRun& run, const fs::path& folder) {
+    Json faults = Json::array(), edges = Json::array(), tops = Json::array();
+    for (const EnsembleFault& fault : run.faults)
+        faults.push_back({{"synthetic", fault.synthetic}, {"points", points_json(fault.points)}});
+    for (const measures::Polyline& edge : run.edges)
+        edges.push_back(points_json(edge));
+    for (const auto& [stratum, heights] : run.tops)
+        tops.push_back(top_json(stratum, heights));
+    return {{"folder", fs::relative(run.folder, folder).string()},
+            {"seed", run.seed},
+            {"extension_m", run.extension},
+            {"has_report", fs::exists(run.folder / "report.html")},
+            {"faults", faults},
+            {"edges", edges},
+            {"tops", tops},
+            {"measures", run.measures}};
+}
+
 Json ensemble_json(const Ensemble& e, const fs::path& folder) {
     Json json{{"title", e.title},
               {"length_m", e.length},
               {"depth_m", e.depth},
               {"base", points_json(e.base)}};
-    for (const EnsembleRun& run : e.runs) {
-        Json faults = Json::array();
-        for (const EnsembleFault& fault : run.faults)
-            faults.push_back(
-                {{"synthetic", fault.synthetic}, {"points", points_json(fault.points)}});
-        json["runs"].push_back({{"folder", fs::relative(run.folder, folder).string()},
-                                {"seed", run.seed},
-                                {"extension_m", run.extension},
-                                {"has_report", fs::exists(run.folder / "report.html")},
-                                {"faults", faults},
-                                {"measures", run.measures}});
-    }
+    for (const EnsembleRun& run : e.runs)
+        json["runs"].push_back(run_json(run, folder));
     for (const FaultChance& c : fault_chances(e))
         json["chances"].push_back({c.x, c.met, c.of, c.limits.lower, c.limits.upper});
     for (const TopSpread& top : top_spreads(e))
@@ -99,7 +119,8 @@ std::vector<fs::path> draw_ensembles(const fs::path& folder, bool page) {
     std::vector<archive::OwnFile> written{{folder / "seeds.csv", "scene,x_m,runs,"},
                                           {folder / "seed-tops.csv", "scene,stratum,x_m,"},
                                           {folder / "seed-measures.csv", "scene,measure,runs,"},
-                                          {folder / "seeds.png", "Listric"}};
+                                          {folder / "seeds.png", "Listric"},
+                                          {folder / "seeds-apart.png", "Listric"}};
     if (page)
         written.push_back({folder / "report.html", "<title>Listric"});
     archive::require_own(written, {});
@@ -114,7 +135,7 @@ std::vector<fs::path> draw_ensembles(const fs::path& folder, bool page) {
     write_text(place.path / "seeds.json", to_text(Json{{"ensembles", data}}));
     run_drawing_script("seeds.py", {(place.path / "seeds.json").string(),
                                     fs::absolute(folder).string(), page ? "page" : "picture"});
-    std::vector<fs::path> files{folder / "seeds.png"};
+    std::vector<fs::path> files{folder / "seeds.png", folder / "seeds-apart.png"};
     if (page)
         files.push_back(folder / "report.html");
     return files;

@@ -177,6 +177,7 @@ TEST_F(SweepTest, LeanRunsKeepFiveFiles) {
     EXPECT_THAT(contents(folder / "lean/seeds.csv"),
                 HasSubstr("\n\"bonds.tensile_strength_pa = 1e7, material.friction = 0.3\","));
     EXPECT_TRUE(fs::exists(folder / "lean/seeds.png"));
+    EXPECT_TRUE(fs::exists(folder / "lean/seeds-apart.png"));
     EXPECT_EQ(Program(folder, {"figures", path("lean")}).wait().code, 0) << "again";
     const auto json = nlohmann::json::parse(sweep("lean", {"--list", "--json"}).out);
     EXPECT_EQ(json.size(), 8u);
