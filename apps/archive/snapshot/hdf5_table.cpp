@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <new>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <unistd.h>
@@ -244,7 +245,33 @@ std::vector<std::string> attributes_of(Hdf5Id object) {
 
 namespace {
 
-void write_column(hid_t group, const Column& column, std::size_t position) {
+/// Rows from which on a column is packed.
+constexpr std::size_t packed_rows = 1024;
+
+/// The first of the columns before the one at `position` that has its very bytes; none: null.
+/// Events note places and porosities, and many a snapshot is taken just then.
+const Column* twin_before(std::span<const Column> columns, std::size_t position) {
+    const auto bytes = [](const Column& column) {
+        return std::visit([](const auto& values) { return std::as_bytes(std::span(values)); },
+                          column.values);
+    };
+    const auto& values = columns[position].values;
+    const auto twin = std::ranges::find_if(columns.first(position), [&](const Column& column) {
+        return column.values.index() == values.index() &&
+               std::ranges::equal(bytes(column), bytes(columns[position]));
+    });
+    return twin - columns.begin() == static_cast<std::ptrdiff_t>(position) ? nullptr : &*twin;
+}
+
+std::string path_of(hid_t object) {
+    std::string path(
+        static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(object, nullptr, 0))), ' ');
+    H5Iget_name(object, path.data(), path.size() + 1);
+    return path;
+}
+
+/// @param twin  column of the group with the same bytes, which this one then refers to; none: null
+void write_column(hid_t group, const Column& column, std::size_t position, const Column* twin) {
     std::visit(
         [&](const auto& values) {
             using T = typename std::decay_t<decltype(values)>::value_type;
@@ -252,7 +279,10 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
             const std::string what = "cannot write the column " + column.name;
             const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, what);
             const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
-            if (size >= 1024) {
+            if (twin && size >= packed_rows) {
+                const std::string source = path_of(group) + '/' + twin->name;
+                check(H5Pset_virtual(properties, space, ".", source.c_str(), space), what);
+            } else if (size >= packed_rows) {
                 check(H5Pset_chunk(properties, 1, &size), what);
                 check(H5Pset_shuffle(properties), what);
                 check(H5Pset_deflate(properties, 1), what);
@@ -260,8 +290,9 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
             const Handle set(H5Dcreate2(group, column.name.c_str(), hdf5_type<T>(), space,
                                         H5P_DEFAULT, properties, H5P_DEFAULT),
                              H5Dclose, what);
-            check(H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-                  what);
+            if (!twin || size < packed_rows)
+                check(H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                      what);
             write_text_attribute(set, "unit", column.unit);
             write_number(set, "initial", std::get<T>(column.initial));
             if (!column.begins_as.empty())
@@ -290,7 +321,7 @@ template <class T> Column read_values(hid_t set, const std::string& name, std::s
 void write_table(Hdf5Id group, const Table& table) {
     write_number(group, "rows", static_cast<std::int64_t>(table.rows()));
     for (std::size_t k = 0; k < table.columns().size(); ++k)
-        write_column(group, table.columns()[k], k);
+        write_column(group, table.columns()[k], k, twin_before(table.columns(), k));
 }
 
 Table read_table(Hdf5Id parent, const std::string& name) {
