@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -49,11 +50,12 @@ std::size_t size_when_kept(const dem::Table& table) {
             continue;
         }
         EXPECT_EQ(found->initial, column.initial) << column.name << " keeps what is its own";
-        if (const auto* values = std::get_if<std::vector<double>>(&column.values))
+        if (const auto* values = std::get_if<std::vector<double>>(&column.values)) {
             EXPECT_EQ(std::memcmp(std::get<std::vector<double>>(found->values).data(),
                                   values->data(), rows * sizeof(double)),
                       0)
                 << column.name;
+        }
     }
     const auto size = static_cast<std::size_t>(std::filesystem::file_size(path));
     std::filesystem::remove(path);
