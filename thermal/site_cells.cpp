@@ -1,7 +1,6 @@
 #include "thermal/site_cells.hpp"
 
 #include "dem/contacts/power_polygon.hpp"
-#include "dem/numbers/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "thermal/near_sites.hpp"
 
@@ -84,51 +83,19 @@ private:
     std::vector<std::pair<double, std::int32_t>> near_; // square of the distance; site
 };
 
-void add_facets(const PowerPolygon& polygon, const Sites& sites, std::size_t i,
-                std::vector<PowerFacet>& facets) {
-    polygon.for_each_edge([&](const auto& a, const auto& b) {
-        const double x = b.p.x - a.p.x, y = b.p.y - a.p.y, length = hypotenuse(x, y);
-        if (length == 0.0)
-            return;
-        const Point arm{0.5 * (a.p.x + b.p.x), 0.5 * (a.p.y + b.p.y)};
-        double distance = (arm.x * y - arm.y * x) / length;
-        if (a.beyond >= 0) {
-            const auto j = static_cast<std::size_t>(a.beyond);
-            distance = hypotenuse(sites.x[j] - sites.x[i], sites.y[j] - sites.y[i]);
-        }
-        facets.push_back({a.beyond, length, distance, arm});
-    });
-}
-
 } // namespace
 
 FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground) {
     if (sites.count() == 0)
         return {{}, {}, {0}};
     const NearSites tree(sites.x, sites.y);
-    struct Piece {
-        std::vector<PowerCell> cells;
-        std::vector<PowerFacet> facets;
-        std::vector<std::size_t> counts;
-    };
-    const std::vector<Piece> pieces =
-        by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
-            Piece piece;
-            Cutter cutter(sites, ends, ground, tree);
-            for (; i < end; ++i) {
-                const PowerPolygon& polygon = cutter.cut(i);
-                const std::size_t before = piece.facets.size();
-                add_facets(polygon, sites, i, piece.facets);
-                piece.cells.push_back(polygon.cell());
-                piece.counts.push_back(piece.facets.size() - before);
-            }
-            return piece;
-        });
-    FacetedCells all{joined(pieces, &Piece::cells), joined(pieces, &Piece::facets), {0}};
-    for (const Piece& piece : pieces)
-        for (const std::size_t count : piece.counts)
-            all.begin.push_back(all.begin.back() + count);
-    return all;
+    return joined_cells(by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
+        FacetedPiece piece;
+        Cutter cutter(sites, ends, ground, tree);
+        for (; i < end; ++i)
+            piece.add(cutter.cut(i), i, sites.x, sites.y);
+        return piece;
+    }));
 }
 
 } // namespace listric::thermal

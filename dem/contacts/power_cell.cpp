@@ -70,24 +70,32 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     return result;
 }
 
-namespace {
-
-/// Adds the facets of a polygon about disc i.
-void add_facets(const PowerPolygon& polygon, const ConstDiscColumns& d, std::size_t i,
-                std::vector<PowerFacet>& facets) {
+void FacetedPiece::add(const PowerPolygon& polygon, std::size_t i, std::span<const double> x,
+                       std::span<const double> y) {
+    const std::size_t before = facets.size();
     polygon.for_each_edge([&](const auto& a, const auto& b) {
-        const double x = b.p.x - a.p.x, y = b.p.y - a.p.y, length = hypotenuse(x, y);
+        const Point edge = b.p - a.p;
+        const double length = norm(edge);
         if (length == 0.0)
             return;
         const Point arm{0.5 * (a.p.x + b.p.x), 0.5 * (a.p.y + b.p.y)};
         const auto j = static_cast<std::size_t>(a.beyond);
-        const double distance = a.beyond >= 0 ? hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i])
-                                              : (arm.x * y - arm.y * x) / length;
+        const double distance = a.beyond >= 0 ? hypotenuse(x[j] - x[i], y[j] - y[i])
+                                              : (arm.x * edge.y - arm.y * edge.x) / length;
         facets.push_back({a.beyond, length, distance, arm});
     });
+    cells.push_back(polygon.cell());
+    counts.push_back(facets.size() - before);
 }
 
-} // namespace
+FacetedCells joined_cells(const std::vector<FacetedPiece>& pieces) {
+    FacetedCells all{
+        joined(pieces, &FacetedPiece::cells), joined(pieces, &FacetedPiece::facets), {0}};
+    for (const FacetedPiece& piece : pieces)
+        for (const std::size_t count : piece.counts)
+            all.begin.push_back(all.begin.back() + count);
+    return all;
+}
 
 FacetedCells faceted_cells(const State& state, const RigidBase& base,
                            std::span<const std::int32_t> rows, std::span<const double> lids) {
@@ -98,13 +106,8 @@ FacetedCells faceted_cells(const State& state, const RigidBase& base,
     const double reach = reach_of(state), half = 0.5 * reach;
     const Cells cells(d.x, d.y, reach);
     const BasePlace place = base_place(state);
-    struct Piece {
-        std::vector<PowerCell> cells;
-        std::vector<PowerFacet> facets;
-        std::vector<std::size_t> counts;
-    };
     const auto cut = [&](std::size_t k, std::size_t end) {
-        Piece piece;
+        FacetedPiece piece;
         PowerPolygon polygon;
         std::vector<std::pair<double, std::int32_t>> near; // square of the distance; row
         for (; k < end; ++k) {
@@ -134,19 +137,11 @@ FacetedCells faceted_cells(const State& state, const RigidBase& base,
                              0.5 * (square + own - radius[j] * radius[j]), row);
                 corners = polygon.reach();
             }
-            const std::size_t before = piece.facets.size();
-            add_facets(polygon, d, i, piece.facets);
-            piece.cells.push_back(polygon.cell());
-            piece.counts.push_back(piece.facets.size() - before);
+            piece.add(polygon, i, d.x, d.y);
         }
         return piece;
     };
-    const std::vector<Piece> pieces = by_piece(rows.size(), 64, cut);
-    FacetedCells all{joined(pieces, &Piece::cells), joined(pieces, &Piece::facets), {0}};
-    for (const Piece& piece : pieces)
-        for (const std::size_t count : piece.counts)
-            all.begin.push_back(all.begin.back() + count);
-    return all;
+    return joined_cells(by_piece(rows.size(), 64, cut));
 }
 
 } // namespace listric::dem

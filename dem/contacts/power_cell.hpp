@@ -37,6 +37,18 @@ struct FacetedCells {
     }
 };
 
+/// Faceted cells of some discs, one after the other, which are cut apart from those of others.
+struct FacetedPiece {
+    std::vector<PowerCell> cells;
+    std::vector<PowerFacet> facets;
+    std::vector<std::size_t> counts; ///< of facets, by cell
+
+    /// Adds the cell of the disc i of those at x and y, m: this polygon about it.
+    void add(const PowerPolygon& polygon, std::size_t i, std::span<const double> x,
+             std::span<const double> y);
+};
+FacetedCells joined_cells(const std::vector<FacetedPiece>& pieces); ///< in their order
+
 /// Power cells and their facets, with neighbours in the order of their distance. Bits of an area
 /// may differ from those of power_cells(), which cuts in another order.
 /// @param lids  by cell: height above the disc's centre at which a horizontal line ends the cell,
