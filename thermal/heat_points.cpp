@@ -96,7 +96,8 @@ double estimated_points(const SectionEnds& ends, double edge, double mean_radius
 HeatPoints::HeatPoints(const HeatParameters& p, const HeatSetting& setting,
                        const Schedule& schedule)
     : Event("heat_points", schedule), p_(p), setting_(setting), ends_(section_ends(p, setting)) {
-    for (const char* name : {Columns::x, Columns::y, Columns::uplift, Columns::reach})
+    for (const char* name :
+         {Columns::x, Columns::y, Columns::height, Columns::uplift, Columns::reach})
         memory.add<double>(name, "m", 0.0);
     memory.add<double>(Columns::area, "m^2", 0.0);
     memory.add<double>(Columns::temperature, "degC", 0.0);
@@ -107,6 +108,7 @@ HeatPoints::HeatPoints(const HeatParameters& p, const HeatSetting& setting,
 struct HeatPoints::Point {
     dem::Point place;
     double temperature;
+    double height;            ///< of its rock, which stretching thins
     double reach, area = 0.0; ///< the area of one at the start is that of its cell
     bool is_crust = false, goes_with_wall = false;
 };
@@ -116,6 +118,7 @@ void HeatPoints::add(const State& state, const Point& point) {
     memory.resize(row + 1);
     memory.get<double>(Columns::x)[row] = point.place.x;
     memory.get<double>(Columns::y)[row] = point.place.y;
+    memory.get<double>(Columns::height)[row] = point.height;
     memory.get<double>(Columns::uplift)[row] = uplift_at(state, point.place.x);
     memory.get<double>(Columns::temperature)[row] = point.temperature;
     memory.get<double>(Columns::area)[row] = point.area;
@@ -176,6 +179,7 @@ void HeatPoints::lay_out(const State& state, const RigidBase& base) {
     for (const Layout::Leaf& leaf : leaves)
         add(state, {.place = leaf.centre,
                     .temperature = geotherm.at(ground.depth(leaf.centre)),
+                    .height = leaf.height,
                     .reach = 2.5 * std::max(leaf.width, leaf.height),
                     .is_crust = leaf.centre.y > -p_.crust,
                     .goes_with_wall = leaf.centre.x > wall && leaf.centre.y > floor});
@@ -221,6 +225,7 @@ double stretched_x(double x, double left, double width, double before, double no
 void HeatPoints::move(const State& state, double depth, double before, double now, double way) {
     const auto x = memory.get<double>(Columns::x), y = memory.get<double>(Columns::y);
     const auto uplift = memory.get<double>(Columns::uplift);
+    const auto height = memory.get<double>(Columns::height);
     const auto crust = memory.get<std::uint8_t>(Columns::crust);
     const auto with_wall = memory.get<std::uint8_t>(Columns::with_wall);
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -233,9 +238,12 @@ void HeatPoints::move(const State& state, double depth, double before, double no
             const Sheared from{shear, depth, below, before}, to{shear, depth, below, now};
             const double width = crust[k] ? shear.crust_width : shear.mantle_width;
             const double start = crust[k] ? depth : from.moho(x[k]);
-            const double thickness = (-y[k] - start) * from.stretch(x[k], width);
+            const double was = from.stretch(x[k], width);
+            const double thickness = (-y[k] - start) * was;
             x[k] = stretched_x(x[k], shear.left, width, before, now);
-            y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / to.stretch(x[k], width));
+            const double is = to.stretch(x[k], width);
+            y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / is);
+            height[k] *= was / is;
         }
         uplift[k] = uplift_at(state, x[k]);
         y[k] += uplift[k];
@@ -257,37 +265,50 @@ void HeatPoints::drop() {
         memory.reorder(kept);
 }
 
-/// Adds points where rock has risen from the section's floor.
-/// @param stretch  greatest factor of it
-void HeatPoints::fill_floor(const State& state, double stretch) {
-    const double columns = std::ceil((ends_.right - ends_.left) / widest);
-    const double width = (ends_.right - ends_.left) / columns;
-    std::vector<double> own(static_cast<std::size_t>(columns), 0.0);
+/// Lower end of the rock in columns of a width, m. Stretched points are wider apart than columns,
+/// so that neighbours within a reach count.
+std::vector<double> HeatPoints::lowest_rock(std::size_t columns, double width,
+                                            std::size_t reach) const {
+    std::vector<double> own(columns, 0.0), lowest;
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
+    const auto height = get<double>(Columns::height);
     for (std::size_t k = 0; k < x.size(); ++k) {
         double& least = own[static_cast<std::size_t>(
-            std::clamp((x[k] - ends_.left) / width, 0.0, columns - 1.0))];
-        least = std::min(least, y[k]);
+            std::clamp((x[k] - ends_.left) / width, 0.0, static_cast<double>(columns) - 1.0))];
+        least = std::min(least, y[k] - 0.5 * height[k]);
     }
-    // Stretched points are wider apart than columns.
-    const auto reach = static_cast<std::size_t>(std::ceil(0.5 * stretch));
-    std::vector<double> lowest;
-    for (std::size_t column = 0; column < own.size(); ++column) {
-        const std::size_t end = std::min(column + reach + 1, own.size());
+    for (std::size_t column = 0; column < columns; ++column) {
+        const std::size_t end = std::min(column + reach + 1, columns);
         lowest.push_back(*std::min_element(
             own.begin() + static_cast<std::ptrdiff_t>(column - std::min(column, reach)),
             own.begin() + static_cast<std::ptrdiff_t>(end)));
     }
-    for (std::size_t column = 0; column < lowest.size(); ++column)
-        while (lowest[column] - ends_.floor > 1.5 * widest) {
-            lowest[column] -= widest;
+    return lowest;
+}
+
+/// Adds points where rock has risen from the section's floor by half a cell: as much rock as came,
+/// for what is missing would cool without its heat.
+/// @param stretch  greatest factor of it
+void HeatPoints::fill_floor(const State& state, double stretch) {
+    const double columns = std::ceil((ends_.right - ends_.left) / widest);
+    const double width = (ends_.right - ends_.left) / columns;
+    const std::vector<double> lowest =
+        lowest_rock(static_cast<std::size_t>(columns), width,
+                    static_cast<std::size_t>(std::ceil(0.5 * stretch)));
+    for (std::size_t column = 0; column < lowest.size(); ++column) {
+        const double room = lowest[column] - ends_.floor;
+        if (room < 0.5 * widest)
+            continue;
+        const double rows = std::ceil(room / widest), height = room / rows;
+        for (double row = 0.0; row < rows; ++row)
             add(state, {.place = {ends_.left + (static_cast<double>(column) + 0.5) * width,
-                                  lowest[column]},
+                                  lowest[column] - (row + 0.5) * height},
                         .temperature = p_.base_temperature,
+                        .height = height,
                         .reach = 2.5 * widest,
-                        .area = width * widest});
-            carried_in_ += mantle_capacity * width * widest * p_.base_temperature;
-        }
+                        .area = width * height});
+        carried_in_ += mantle_capacity * width * room * p_.base_temperature;
+    }
 }
 
 bool HeatPoints::apply(State& state, const RigidBase& base) {

@@ -52,9 +52,9 @@ public:
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
     struct Columns {
-        static constexpr const char *x = "x", *y = "y", *area = "area", *uplift = "uplift",
-                                    *temperature = "temperature", *crust = "crust",
-                                    *with_wall = "with_wall", *reach = "reach";
+        static constexpr const char *x = "x", *y = "y", *height = "height", *area = "area",
+                                    *uplift = "uplift", *temperature = "temperature",
+                                    *crust = "crust", *with_wall = "with_wall", *reach = "reach";
     };
     template <class T> std::span<const T> get(const char* column) const {
         return std::as_const(memory).get<T>(column);
@@ -75,6 +75,7 @@ private:
     void move(const dem::State& state, double depth, double before, double now, double way);
     void drop();
     void fill_floor(const dem::State& state, double stretch);
+    std::vector<double> lowest_rock(std::size_t columns, double width, std::size_t reach) const;
     struct Point;
     void add(const dem::State& state, const Point& point);
 
