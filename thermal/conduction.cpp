@@ -61,12 +61,16 @@ HeatNetwork heat_network(const Sites& sites, const FacetedCells& cells,
                 network.floor[i] += here * facet.length / facet.distance;
             if (facet.neighbour <= static_cast<std::int32_t>(i))
                 continue;
-            const double there = conductivity[static_cast<std::size_t>(facet.neighbour)];
-            const double length = common_length(cells, i, facet);
-            if (length > 0.0)
-                network.links.push_back(
-                    {static_cast<std::int32_t>(i), facet.neighbour,
-                     2.0 * here * there / (here + there) * length / facet.distance});
+            const auto j = static_cast<std::size_t>(facet.neighbour);
+            const double there = conductivity[j];
+            const double way = std::clamp( // to the facet
+                (facet.arm.x * (sites.x[j] - sites.x[i]) +
+                 facet.arm.y * (sites.y[j] - sites.y[i])) /
+                    facet.distance,
+                0.0, facet.distance);
+            if (const double length = common_length(cells, i, facet); length > 0.0)
+                network.links.push_back({static_cast<std::int32_t>(i), facet.neighbour,
+                                         length / (way / here + (facet.distance - way) / there)});
         }
     }
     return network;

@@ -22,9 +22,8 @@ struct HeatNetwork {
     std::vector<double> ground, floor; ///< 0: it does not touch it
 };
 
-/// Conductance of a facet is its length over the distance of the centres, times the harmonic mean
-/// of the conductivities: exact for a linear field, and within 6 K of 444 across a contact of 1
-/// to 10.
+/// Conductance of a facet is its length over the resistance of the way through it from centre to
+/// centre: exact for a linear field, and within 6 K of 444 across a contact of 1 to 10.
 /// @param conductivity  by cell, W/m/K
 HeatNetwork heat_network(const Sites& sites, const dem::FacetedCells& cells,
                          std::span<const double> conductivity);

@@ -11,7 +11,8 @@ using namespace dem;
 
 namespace {
 
-constexpr double widest = 6e3; // m, of a cell
+constexpr double widest = 6e3;         // m, of a cell
+constexpr double reach_of_point = 2.5; // widths
 
 /// Cells of the rock without discs, quartered until they are as small as their distance asks.
 class Layout {
@@ -180,7 +181,7 @@ void HeatPoints::lay_out(const State& state, const RigidBase& base) {
         add(state, {.place = leaf.centre,
                     .temperature = geotherm.at(ground.depth(leaf.centre)),
                     .height = leaf.height,
-                    .reach = 2.5 * std::max(leaf.width, leaf.height),
+                    .reach = reach_of_point * std::max(leaf.width, leaf.height),
                     .is_crust = leaf.centre.y > -p_.crust,
                     .goes_with_wall = leaf.centre.x > wall && leaf.centre.y > floor});
 }
@@ -250,6 +251,34 @@ void HeatPoints::move(const State& state, double depth, double before, double no
     }
 }
 
+/// Makes points of those that have become wide: between them the cells of rows below would reach
+/// up.
+void HeatPoints::split(const State& state) {
+    for (std::size_t k = 0, end = memory.rows(); k < end; ++k) {
+        const double height = get<double>(Columns::height)[k];
+        const double width = get<double>(Columns::area)[k] / height;
+        const double reach = get<double>(Columns::reach)[k];
+        const double parts = std::floor(width / (reach / reach_of_point));
+        if (parts < 2.0)
+            continue;
+        const double part = width / parts, left = get<double>(Columns::x)[k] - 0.5 * width;
+        const Point whole{.place = {left + 0.5 * part, get<double>(Columns::y)[k]},
+                          .temperature = get<double>(Columns::temperature)[k],
+                          .height = height,
+                          .reach = reach,
+                          .area = part * height,
+                          .is_crust = get<std::uint8_t>(Columns::crust)[k] != 0,
+                          .goes_with_wall = get<std::uint8_t>(Columns::with_wall)[k] != 0};
+        memory.get<double>(Columns::x)[k] = whole.place.x;
+        memory.get<double>(Columns::area)[k] = whole.area;
+        for (double n = 1.0; n < parts; ++n) {
+            Point next = whole;
+            next.place.x += n * part;
+            add(state, next);
+        }
+    }
+}
+
 /// Takes away what has left the section.
 void HeatPoints::drop() {
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
@@ -305,7 +334,7 @@ void HeatPoints::fill_floor(const State& state, double stretch) {
                                   lowest[column] - (row + 0.5) * height},
                         .temperature = p_.base_temperature,
                         .height = height,
-                        .reach = 2.5 * widest,
+                        .reach = reach_of_point * widest,
                         .area = width * height});
         carried_in_ += mantle_capacity * width * room * p_.base_temperature;
     }
@@ -318,6 +347,7 @@ bool HeatPoints::apply(State& state, const RigidBase& base) {
     move(state, base_depth(base), before, now, wall_way(base, now) - wall_way(base, before));
     drop();
     if (setting_.shear) {
+        split(state);
         const double width = std::min(setting_.shear->crust_width, setting_.shear->mantle_width);
         fill_floor(state, (width + std::max(before, now)) / width);
     }

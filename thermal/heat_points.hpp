@@ -40,8 +40,8 @@ double estimated_points(const SectionEnds& ends, double edge, double mean_radius
 ///  - up and down with the base's node above them,
 ///  - beside the right wall, above the detachment's depth, with the wall,
 ///  - below that depth in pure shear, where the scene has such.
-/// What leaves the section is taken away, what has room at its floor comes with the temperature
-/// there. Memory: a row per point.
+/// A point that has become twice as wide becomes two. What leaves the section is taken away, what
+/// has room at its floor comes with the temperature there. Memory: a row per point.
 class HeatPoints : public dem::Event {
 public:
     HeatPoints(const HeatParameters& p, const HeatSetting& setting, const dem::Schedule& schedule);
@@ -73,6 +73,7 @@ public:
 private:
     void lay_out(const dem::State& state, const dem::RigidBase& base);
     void move(const dem::State& state, double depth, double before, double now, double way);
+    void split(const dem::State& state);
     void drop();
     void fill_floor(const dem::State& state, double stretch);
     std::vector<double> lowest_rock(std::size_t columns, double width, std::size_t reach) const;

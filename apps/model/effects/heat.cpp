@@ -105,10 +105,11 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("is {}, allowed: above surface_temperature_c, {}",
                            text(p.base_temperature), text(p.surface_temperature)));
     if (thermal::Geotherm(p).mantle_heat_flow() <= 0.0)
-        refuse("heat.heat_production_w_per_m3",
-               fmt::format("is {}: the crust makes more heat than leaves through the ground, and "
-                           "the mantle is hotter than its base; lower it or crust_m",
-                           text(p.heat_production)));
+        refuse("heat.base_temperature_c",
+               fmt::format("is {}, but the crust's heat_production_w_per_m3 = {} makes more than "
+                           "leaves through the ground, so that its own base is hotter; raise it, "
+                           "or lower that or crust_m",
+                           text(p.base_temperature), text(p.heat_production)));
     const auto crust = make_parts(scene).stretched_crust;
     if (p.mantle_width && !crust)
         refuse("heat.mantle_width_m",
@@ -119,6 +120,20 @@ void check(const Scene& scene, const Refuse& refuse) {
         refuse("heat.mantle_width_m",
                fmt::format("is {}, but [[stage]] shortens it by {}; widen it",
                            text(*p.mantle_width), text(shortening)));
+}
+
+std::string warning(const Scene& scene) {
+    constexpr double longest = 5e6; // a
+    const auto pauses = make_calendar(scene).pauses();
+    if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
+        return "";
+    const auto stage = std::ranges::find_if(*scene.find<Stages>(), [](const StageParameters& one) {
+        return one.step.value_or(0.0) > longest;
+    });
+    return fmt::format("stage[{}].step_a: is {}; in a step rock does not move and temperatures of "
+                       "sediment go evenly from one to the next, so that their maturity is coarse; "
+                       "up to {} is usual",
+                       stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
 }
 
 /// Points in the rock: those of lis1 at both accuracies, and in between by the spacing.
@@ -169,6 +184,7 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters = parameters(),
         .check = check,
+        .warning = warning,
         .add_events = add_events,
         .explain = explain,
         .price =
