@@ -1,6 +1,7 @@
 #include "apps/model/effects/heat/heat_measures.hpp"
 
 #include "apps/model/measure_names.hpp"
+#include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
@@ -53,8 +54,8 @@ std::vector<WarmDisc> warm_discs(const Observation& now) {
 }
 
 V depocentre(const std::vector<WarmDisc>& warm) {
-    const auto deepest = std::ranges::max_element(warm, {}, &WarmDisc::depth);
-    return deepest == warm.end() ? V() : V(deepest->x);
+    const WarmDisc* const deepest = deepest_of(warm);
+    return deepest ? V(deepest->x) : V();
 }
 
 /// Depth at which the column at x has come to a temperature, of discs and points within 1 km.
@@ -239,39 +240,8 @@ constexpr Measure<WarmDisc> of_point[] = {
     {"age_a", "a", "age", "time since the sediment was laid down", taken<&WarmDisc::age>},
 };
 
-std::vector<NamedNumbers> numbers_at(const Observation& now, double x) {
-    std::vector<NamedNumbers> rows;
-    for (const WarmDisc& point : well_at(now, x)) {
-        NamedNumbers& numbers = rows.emplace_back();
-        for (const auto& measure : of_point)
-            if (const auto value = measure.value(point))
-                numbers.emplace_back(measure.name, *value);
-    }
-    return rows;
-}
-
-/// The depocentre, and from there toward the moving wall the first place where sediment is half as
-/// deep.
 std::vector<WellPlace> places(const Observation& now) {
-    const std::vector<WarmDisc> warm = warm_discs(now);
-    const V x = depocentre(warm);
-    if (!x)
-        return {};
-    const auto floor_about = [&](double place) {
-        double floor = 0.0;
-        for (const WarmDisc& disc : warm)
-            if (std::abs(disc.x - place) <= 500.0)
-                floor = std::max(floor, disc.depth);
-        return floor;
-    };
-    std::vector<WellPlace> found{{"depocentre", *x}};
-    const double deepest = floor_about(*x);
-    for (double place = *x; place < now.right_end(); place += 500.0)
-        if (const double floor = floor_about(place); floor > 0.0 && floor <= 0.5 * deepest) {
-            found.push_back({"flank", place});
-            break;
-        }
-    return found;
+    return places_of_wells(warm_discs(now), now.right_end());
 }
 
 /// Isotherms to and fro, so that they are one line: its turns are at the section's ends.
@@ -351,16 +321,6 @@ std::vector<FigureLayer> heat_layers() {
              2.0}};
 }
 
-MeasuredWell heat_well() {
-    MeasuredWell well{{}, places, numbers_at, [](const Observation& now, double x) {
-                          std::vector<dem::Point> points;
-                          for (const WarmDisc& point : well_at(now, x))
-                              points.push_back({point.x, point.y});
-                          return points;
-                      }};
-    for (const auto& measure : of_point)
-        well.parts.push_back(measure.quantity());
-    return well;
-}
+MeasuredWell heat_well() { return measured_well<WarmDisc, of_point, well_at>(places); }
 
 } // namespace listric::effects::heat
