@@ -81,7 +81,8 @@ SectionEnds section_ends(const HeatParameters& p, const HeatSetting& setting) {
         const double width = std::max(setting.shear->crust_width, setting.shear->mantle_width);
         right = std::max(right, setting.shear->left + width);
     }
-    return {left - beyond, right + std::max(0.0, setting.greatest_extension) + beyond,
+    const double share = setting.shear ? setting.shear->share : 1.0;
+    return {left - beyond, right + std::max(0.0, share * setting.greatest_extension) + beyond,
             -p.lithosphere};
 }
 
@@ -198,7 +199,7 @@ namespace {
 struct Sheared {
     const PureShear& shear;
     double top, crust; ///< depth of the detachment; thickness of the crust below it, m
-    double extension;
+    double extension;  ///< of crust and mantle, m
 
     double stretch(double x, double width) const {
         const bool within = x >= shear.left && x <= shear.left + width + extension;
@@ -230,11 +231,12 @@ void HeatPoints::move(const State& state, double depth, double before, double no
         } else if (setting_.shear && -y[k] > depth) {
             const PureShear& shear = *setting_.shear;
             const double below = std::max(0.0, p_.crust - depth);
-            const Sheared from{shear, depth, below, before}, to{shear, depth, below, now};
+            const double first = shear.share * before, last = shear.share * now;
+            const Sheared from{shear, depth, below, first}, to{shear, depth, below, last};
             const double width = crust[k] ? shear.crust_width : shear.mantle_width;
             const double start = crust[k] ? depth : from.moho(x[k]);
             const double thickness = (-y[k] - start) * from.stretch(x[k], width);
-            x[k] = stretched_x(x[k], shear.left, width, before, now);
+            x[k] = stretched_x(x[k], shear.left, width, first, last);
             y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / to.stretch(x[k], width));
         }
         uplift[k] = uplift_at(state, x[k]);
@@ -298,7 +300,7 @@ bool HeatPoints::apply(State& state, const RigidBase& base) {
     drop();
     if (setting_.shear) {
         const double width = std::min(setting_.shear->crust_width, setting_.shear->mantle_width);
-        fill_floor(state, (width + std::max(before, now)) / width);
+        fill_floor(state, (width + setting_.shear->share * std::max(before, now)) / width);
     }
     return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
 #include "thermal/geotherm.hpp"
 #include "thermal/ground_line.hpp"
@@ -16,16 +17,22 @@ namespace listric::thermal {
 struct PureShear {
     double left = 0.0;                            ///< x of the end that stays, m
     double crust_width = 0.0, mantle_width = 0.0; ///< before extension, m
+    /// By which they stretch, of the extension: more than 1 where faults outside of the section
+    /// take part.
+    double share = 1.0;
 };
 
 /// What heat needs to know of a scene.
 struct HeatSetting {
     GroundBeside beside = {};
+    /// Of the start's temperatures.
+    dem::TargetLine ground = dem::TargetLine(std::vector<dem::Point>{{0.0, 0.0}});
     double greatest_extension = 0.0;         ///< of the run, m
     std::optional<PureShear> shear = {};     ///< none: what is below the detachment rests
     std::vector<double> rock_densities = {}; ///< bulk: of rock without layer, then of layers
     double grain_density = 2600.0;           ///< of sediment, kg/m^3
     double surface_porosity = 0.5;
+    double crust_density = 2700.0, mantle_density = 3300.0; ///< of rock without discs, kg/m^3
 };
 
 /// The section that has temperatures: 150 km beyond what moves, which is three times as far as

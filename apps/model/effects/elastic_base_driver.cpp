@@ -99,13 +99,15 @@ std::string moment_text(const Clock& clock, const Motion& motion) {
 class ElasticBaseDriver final : public BaseDriver {
 public:
     ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
-                      std::vector<std::unique_ptr<Event>>& events)
+                      std::span<const std::unique_ptr<Event>> events,
+                      std::vector<std::unique_ptr<Event>>& loads)
         : request_(make_footwall_request(scene, parts)), mesh_checksum_(checksum_of(request_)),
           rock_weight_(elastic_base(scene)->bending.crust_density * parts.gravity),
           footwall_(refusing([&] { return fem::make_footwall(request_); })),
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
           loads_(refusing([&] {
-              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
+              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts, events),
+                                   loads);
           })) {
         if (footwall_->stress_points().empty())
             return;
@@ -113,7 +115,7 @@ public:
                                              Travel(scene.extension.distance));
         creep_ = creep.get();
         // Before the loads: the base has moved under what they have been.
-        events.insert(events.begin(), std::move(creep));
+        loads.insert(loads.begin(), std::move(creep));
     }
 
     std::vector<std::string> description() const override {
@@ -260,8 +262,9 @@ BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
 } // namespace
 
 std::unique_ptr<BaseDriver> make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
-                                                     std::vector<std::unique_ptr<Event>>& events) {
-    return std::make_unique<ElasticBaseDriver>(scene, parts, events);
+                                                     std::span<const std::unique_ptr<Event>> events,
+                                                     std::vector<std::unique_ptr<Event>>& loads) {
+    return std::make_unique<ElasticBaseDriver>(scene, parts, events, loads);
 }
 
 } // namespace listric
