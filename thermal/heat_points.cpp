@@ -82,7 +82,8 @@ SectionEnds section_ends(const HeatParameters& p, const HeatSetting& setting) {
         const double width = std::max(setting.shear->crust_width, setting.shear->mantle_width);
         right = std::max(right, setting.shear->left + width);
     }
-    return {left - beyond, right + std::max(0.0, setting.greatest_extension) + beyond,
+    const double share = setting.shear ? setting.shear->share : 1.0;
+    return {left - beyond, right + std::max(0.0, share * setting.greatest_extension) + beyond,
             -p.lithosphere};
 }
 
@@ -203,7 +204,7 @@ namespace {
 struct Sheared {
     const PureShear& shear;
     double top, crust; ///< depth of the detachment; thickness of the crust below it, m
-    double extension;
+    double extension;  ///< of crust and mantle, m
 
     double stretch(double x, double width) const {
         const bool within = x >= shear.left && x <= shear.left + width + extension;
@@ -236,12 +237,13 @@ void HeatPoints::move(const State& state, double depth, double before, double no
         } else if (setting_.shear && -y[k] > depth) {
             const PureShear& shear = *setting_.shear;
             const double below = std::max(0.0, p_.crust - depth);
-            const Sheared from{shear, depth, below, before}, to{shear, depth, below, now};
+            const double first = shear.share * before, last = shear.share * now;
+            const Sheared from{shear, depth, below, first}, to{shear, depth, below, last};
             const double width = crust[k] ? shear.crust_width : shear.mantle_width;
             const double start = crust[k] ? depth : from.moho(x[k]);
             const double was = from.stretch(x[k], width);
             const double thickness = (-y[k] - start) * was;
-            x[k] = stretched_x(x[k], shear.left, width, before, now);
+            x[k] = stretched_x(x[k], shear.left, width, first, last);
             const double is = to.stretch(x[k], width);
             y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / is);
             height[k] *= was / is;
@@ -279,13 +281,18 @@ void HeatPoints::split(const State& state) {
     }
 }
 
-/// Takes away what has left the section.
-void HeatPoints::drop() {
+/// Takes away what has left the section, and what has been eroded beside the hanging wall.
+void HeatPoints::drop(const State& state, const RigidBase& base) {
+    std::optional<GroundLine> flank;
+    if (setting_.beside.cover)
+        flank = ground_line(state, base, setting_.beside);
+    const double breakaway = flank ? base_points(state, base, widest).front().x : 0.0;
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
     const auto crust = get<std::uint8_t>(Columns::crust);
     std::vector<std::int32_t> kept;
     for (std::size_t k = 0; k < x.size(); ++k)
-        if (x[k] > ends_.left && x[k] < ends_.right && y[k] > ends_.floor)
+        if (x[k] > ends_.left && x[k] < ends_.right && y[k] > ends_.floor &&
+            !(flank && x[k] < breakaway && flank->depth({x[k], y[k]}) <= 0.0))
             kept.push_back(static_cast<std::int32_t>(k));
         else
             carried_out_ += (crust[k] ? crust_capacity : mantle_capacity) *
@@ -345,11 +352,11 @@ bool HeatPoints::apply(State& state, const RigidBase& base) {
     const double before = base.motion.position(schedule().due(applied)).m;
     const double now = base.motion.position(schedule().due(applied + 1)).m;
     move(state, base_depth(base), before, now, wall_way(base, now) - wall_way(base, before));
-    drop();
+    drop(state, base);
     if (setting_.shear) {
         split(state);
         const double width = std::min(setting_.shear->crust_width, setting_.shear->mantle_width);
-        fill_floor(state, (width + std::max(before, now)) / width);
+        fill_floor(state, (width + setting_.shear->share * std::max(before, now)) / width);
     }
     return false;
 }

@@ -22,7 +22,6 @@ using namespace thermal;
 namespace {
 
 constexpr double depth = 150.0, length = 2e3, radius = 75.0, width = 400e3;
-constexpr double middle_left = -400e3, middle_right = -40e3;
 constexpr double mantle = 3330.0, water = 1000.0, expansion = 3.28e-5;
 
 /// Discs in rows on a flat base between walls that stay.
@@ -109,19 +108,10 @@ struct Rift {
         }
     }
 
-    /// Uplift of the middle, in its water, m: a mean whose weights rise from nothing and fall
-    /// again, so that it does not feel where columns of points begin.
+    /// Uplift of the middle, in its water, m.
     double uplift() const {
-        std::vector<double> edges;
-        for (double x = middle_left; x <= middle_right; x += 1e3)
-            edges.push_back(x);
-        const std::vector<double> strips = heat.anomaly(state, base, edges);
-        double sum = 0.0;
-        for (std::size_t k = 0; k < strips.size(); ++k)
-            sum += strips[k] *
-                   (1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) /
-                                   static_cast<double>(strips.size())));
-        return mantle * expansion / (mantle - water) * sum / (middle_right - middle_left);
+        const std::vector<double> edges{-400e3, -40e3};
+        return mantle * expansion / (mantle - water) * heat.anomaly(state, base, edges)[0] / 360e3;
     }
 };
 

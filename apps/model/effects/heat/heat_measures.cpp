@@ -3,6 +3,7 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
+#include "coupling/thermal_load.hpp"
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
 #include "thermal/heat.hpp"
@@ -56,6 +57,14 @@ std::vector<WarmDisc> warm_discs(const Observation& now) {
 V depocentre(const std::vector<WarmDisc>& warm) {
     const WarmDisc* const deepest = deepest_of(warm);
     return deepest ? V(deepest->x) : V();
+}
+
+V subsidence_by_cooling(const Observation& now) {
+    const dem::Motion& motion = now.parts.base.motion;
+    if (!coupling::post_rift_subsidence(now.state, motion, 0.0))
+        return std::nullopt;
+    const V x = depocentre(warm_discs(now));
+    return x ? coupling::post_rift_subsidence(now.state, motion, *x) : std::nan("");
 }
 
 /// Depth at which the column at x has come to a temperature, of discs and points within 1 km.
@@ -297,6 +306,13 @@ std::vector<Measure<Observation>> heat_measures() {
          "greatest vitrinite reflectance %Ro of sediment", of_discs<greatest_reflectance>},
         {"oil_window_area_m2", "m2", "sediment in the oil window",
          "area of sediment with a vitrinite reflectance of 0.6 to 1.3 %", of_discs<oil_window>},
+        {coupling::thermal_load_name, "N/m", "weight of cold rock",
+         "weight that rock of the section has by its temperatures, less that at the start: below 0 "
+         "where it is hotter, and the base that bends is lifted"},
+        {"post_rift_subsidence_m", "m", "subsidence since the wall stopped",
+         "by how much a base that bends has sunk below the depocentre since the wall last moved; 0 "
+         "while it moves",
+         subsidence_by_cooling},
         {heat_balance_error, "1", "error of the heat's balance",
          "heat that came less heat that went and is there, over the sum of both. Round-off",
          balance_error, largest, "below 1e-10"},
