@@ -67,28 +67,11 @@ std::vector<double> surface_knots(double width, double left) {
 }
 
 std::vector<fem::Load> surface_loads(const std::vector<double>& knots) {
-    std::vector<fem::Load> loads;
-    for (std::size_t k = 0; k < knots.size(); ++k) {
-        std::vector<double> pressure(knots.size(), 0.0);
-        pressure[k] = 1.0;
-        loads.push_back(surface_load(knots, pressure));
-    }
-    return loads;
+    return pressure_loads(fem::Boundary::surface, knots);
 }
 
 fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure) {
-    std::vector<Point> points;
-    for (std::size_t k = 0; k < knots.size(); ++k)
-        points.push_back({knots[k], pressure[k]});
-    fem::Load load;
-    load.traction = [line = TargetLine(points), points](fem::Vector p, fem::Vector,
-                                                        fem::Boundary boundary) {
-        const bool is_loaded =
-            boundary == fem::Boundary::surface && p.x >= points.front().x && p.x <= points.back().x;
-        return fem::Vector{0.0, is_loaded ? -line.height(p.x) : 0.0};
-    };
-    load.jumps = std::move(knots); // bends there
-    return load;
+    return pressure_load(fem::Boundary::surface, std::move(knots), std::move(pressure));
 }
 
 std::vector<double> cover_pressure(const FootwallErosionParameters& p, double gravity,

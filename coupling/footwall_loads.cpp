@@ -2,6 +2,7 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
+#include "dem/base/target_line.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -52,6 +53,31 @@ std::vector<LoadResponse> solve_unit_loads(fem::Footwall& footwall,
         }
     }
     return result;
+}
+
+fem::Load pressure_load(fem::Boundary boundary, std::vector<double> knots,
+                        std::vector<double> pressure) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        points.push_back({knots[k], pressure[k]});
+    fem::Load load;
+    load.traction = [boundary, line = TargetLine(points), points](fem::Vector p, fem::Vector,
+                                                                  fem::Boundary at) {
+        const bool is_loaded = at == boundary && p.x >= points.front().x && p.x <= points.back().x;
+        return fem::Vector{0.0, is_loaded ? -line.height(p.x) : 0.0};
+    };
+    load.jumps = std::move(knots); // bends there
+    return load;
+}
+
+std::vector<fem::Load> pressure_loads(fem::Boundary boundary, const std::vector<double>& knots) {
+    std::vector<fem::Load> loads;
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+        std::vector<double> pressure(knots.size(), 0.0);
+        pressure[k] = 1.0;
+        loads.push_back(pressure_load(boundary, knots, pressure));
+    }
+    return loads;
 }
 
 std::vector<double> superpose(std::span<const double> amounts, std::span<const double> rows) {

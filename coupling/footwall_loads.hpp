@@ -34,6 +34,14 @@ std::vector<LoadResponse> solve_unit_loads(fem::Footwall& footwall,
                                            std::span<const std::vector<fem::Load>> effects,
                                            std::size_t unknowns);
 
+/// Pressures at knots that ascend, m, linear in between and nowhere else, toward a boundary from
+/// above: downward, Pa.
+fem::Load pressure_load(fem::Boundary boundary, std::vector<double> knots,
+                        std::vector<double> pressure);
+
+/// A pressure of 1 Pa at each knot.
+std::vector<fem::Load> pressure_loads(fem::Boundary boundary, const std::vector<double>& knots);
+
 /// Sum of rows, each times its amount: a number per column.
 std::vector<double> superpose(std::span<const double> amounts, std::span<const double> rows);
 

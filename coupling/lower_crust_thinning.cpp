@@ -21,13 +21,14 @@ constexpr std::size_t steps = 10; // of lower_crust_loads()
 } // namespace
 
 double lower_crust_thinning(const LowerCrustThinningParameters& p, double extension) {
-    return p.thickness * extension / (p.width + extension);
+    const double stretch = p.share * extension;
+    return p.thickness * stretch / (p.width + stretch);
 }
 
 fem::Load lower_crust_load(const LowerCrustThinningParameters& p, double contrast,
                            double extension) {
     const double pressure = contrast * lower_crust_thinning(p, extension);
-    const double left = p.centre - 0.5 * p.width, right = left + p.width + extension;
+    const double left = p.centre - 0.5 * p.width, right = left + p.width + p.share * extension;
     fem::Load load;
     load.traction = [=](fem::Vector place, fem::Vector, fem::Boundary boundary) {
         const bool is_loaded = boundary == fem::Boundary::base && place.x > left && place.x < right;

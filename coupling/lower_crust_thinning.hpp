@@ -20,9 +20,10 @@ struct LowerCrustThinningParameters {
     double thickness = 20e3; ///< h, m
     double width = 100e3;    ///< b, m
     double centre = 15e3;    ///< x of its middle before extension, m
+    double share = 1.0;      ///< of the hanging wall's extension by which it stretches
 };
 
-/// By how much the lower crust is thinner after an extension, m.
+/// By how much the lower crust is thinner after an extension of the hanging wall, m.
 double lower_crust_thinning(const LowerCrustThinningParameters& parameters, double extension);
 
 /// The load of the mantle that has risen, downward at the base: thinning times `contrast`, the

@@ -52,8 +52,7 @@ SparseSolver::SparseSolver(std::size_t unknowns, std::span<const MatrixEntry> en
 
 SparseSolver::~SparseSolver() = default;
 
-bool SparseSolver::solve(std::span<const double> diagonal, std::span<const double> off_diagonal,
-                         std::span<const double> right_side, std::span<double> solution) {
+bool SparseSolver::factor(std::span<const double> diagonal, std::span<const double> off_diagonal) {
     assert(diagonal.size() == parts_->diagonal.size());
     assert(off_diagonal.size() == parts_->off_diagonal.size());
     double* const values = parts_->matrix.valuePtr();
@@ -62,13 +61,14 @@ bool SparseSolver::solve(std::span<const double> diagonal, std::span<const doubl
     for (std::size_t k = 0; k < off_diagonal.size(); ++k)
         values[parts_->off_diagonal[k]] = off_diagonal[k];
     parts_->factors.factorize(parts_->matrix);
-    if (parts_->factors.info() != Eigen::Success)
-        return false;
+    return parts_->factors.info() == Eigen::Success;
+}
+
+void SparseSolver::solve(std::span<const double> right_side, std::span<double> solution) const {
     const auto n = static_cast<Eigen::Index>(right_side.size());
     const Eigen::VectorXd x =
         parts_->factors.solve(Eigen::Map<const Eigen::VectorXd>(right_side.data(), n));
     std::copy_n(x.data(), right_side.size(), solution.data());
-    return true;
 }
 
 } // namespace listric::fluid

@@ -22,10 +22,21 @@ public:
     SparseSolver(const SparseSolver&) = delete;
     SparseSolver& operator=(const SparseSolver&) = delete;
 
-    /// Factors a matrix and solves for one right side. False if it is not positive definite.
+    /// Factors a matrix. False if it is not positive definite.
     /// @param off_diagonal  values of the entries
+    bool factor(std::span<const double> diagonal, std::span<const double> off_diagonal);
+
+    /// Solves with the matrix that was factored last.
+    void solve(std::span<const double> right_side, std::span<double> solution) const;
+
+    /// Factors a matrix and solves for one right side.
     bool solve(std::span<const double> diagonal, std::span<const double> off_diagonal,
-               std::span<const double> right_side, std::span<double> solution);
+               std::span<const double> right_side, std::span<double> solution) {
+        if (!factor(diagonal, off_diagonal))
+            return false;
+        solve(right_side, solution);
+        return true;
+    }
 
 private:
     struct Parts;

@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace listric::thermal {
 
@@ -59,12 +61,16 @@ HeatNetwork heat_network(const Sites& sites, const FacetedCells& cells,
                 network.floor[i] += here * facet.length / facet.distance;
             if (facet.neighbour <= static_cast<std::int32_t>(i))
                 continue;
-            const double there = conductivity[static_cast<std::size_t>(facet.neighbour)];
-            const double length = common_length(cells, i, facet);
-            if (length > 0.0)
-                network.links.push_back(
-                    {static_cast<std::int32_t>(i), facet.neighbour,
-                     2.0 * here * there / (here + there) * length / facet.distance});
+            const auto j = static_cast<std::size_t>(facet.neighbour);
+            const double there = conductivity[j];
+            const double way = std::clamp( // to the facet
+                (facet.arm.x * (sites.x[j] - sites.x[i]) +
+                 facet.arm.y * (sites.y[j] - sites.y[i])) /
+                    facet.distance,
+                0.0, facet.distance);
+            if (const double length = common_length(cells, i, facet); length > 0.0)
+                network.links.push_back({static_cast<std::int32_t>(i), facet.neighbour,
+                                         length / (way / here + (facet.distance - way) / there)});
         }
     }
     return network;
@@ -116,38 +122,67 @@ void solve_iteratively(std::span<const HeatLink> links, std::span<const double> 
     }
 }
 
-HeatFlows conduct(const HeatNetwork& network, std::span<const double> capacity,
-                  std::span<const double> production, const EndTemperatures& ends, double seconds,
-                  std::span<double> temperature) {
-    const std::size_t n = temperature.size();
-    std::vector<double> diagonal(n), right_side(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        diagonal[i] = capacity[i] / seconds + network.ground[i] + network.floor[i];
-        right_side[i] = capacity[i] / seconds * temperature[i] + production[i] +
-                        network.ground[i] * ends.ground + network.floor[i] * ends.floor;
-    }
-    for (const HeatLink& link : network.links) {
-        diagonal[static_cast<std::size_t>(link.first)] += link.conductance;
-        diagonal[static_cast<std::size_t>(link.second)] += link.conductance;
-    }
-    if (n <= most_direct) {
+namespace {
+
+/// Solves conduction again and again, for right sides of one matrix.
+class Solver {
+public:
+    Solver(const HeatNetwork& network, std::vector<double> diagonal)
+        : network_(network), diagonal_(std::move(diagonal)) {
+        for (const HeatLink& link : network.links) {
+            diagonal_[static_cast<std::size_t>(link.first)] += link.conductance;
+            diagonal_[static_cast<std::size_t>(link.second)] += link.conductance;
+        }
+        if (diagonal_.size() > most_direct)
+            return;
         std::vector<fluid::MatrixEntry> entries;
         std::vector<double> values;
         for (const HeatLink& link : network.links) {
             entries.push_back({link.first, link.second});
             values.push_back(-link.conductance);
         }
-        fluid::SparseSolver solver(n, entries);
-        if (!solver.solve(diagonal, values, right_side, temperature))
+        direct_ = std::make_unique<fluid::SparseSolver>(diagonal_.size(), entries);
+        if (!direct_->factor(diagonal_, values))
             throw NumericalFailure("heat: the matrix of conduction is not positive definite");
-    } else {
-        solve_iteratively(network.links, diagonal, right_side, temperature);
     }
+
+    void solve(std::span<const double> right_side, std::span<double> temperature) const {
+        if (direct_)
+            direct_->solve(right_side, temperature);
+        else
+            solve_iteratively(network_.links, diagonal_, right_side, temperature);
+    }
+
+private:
+    const HeatNetwork& network_;
+    std::vector<double> diagonal_;
+    std::unique_ptr<fluid::SparseSolver> direct_;
+};
+
+} // namespace
+
+HeatFlows conduct(const HeatNetwork& network, std::span<const double> capacity,
+                  std::span<const double> production, const EndTemperatures& ends, double seconds,
+                  std::span<double> temperature) {
+    constexpr double most_parts = 400.0;
+    const std::size_t n = temperature.size();
+    const double parts = std::clamp(std::ceil(seconds / longest_part), 1.0, most_parts);
+    const double part = seconds / parts;
+    std::vector<double> diagonal(n), right_side(n);
+    for (std::size_t i = 0; i < n; ++i)
+        diagonal[i] = capacity[i] / part + network.ground[i] + network.floor[i];
+    const Solver solver(network, diagonal);
     HeatFlows flows;
-    for (std::size_t i = 0; i < n; ++i) {
-        flows.produced += seconds * production[i];
-        flows.through_ground += seconds * network.ground[i] * (temperature[i] - ends.ground);
-        flows.through_floor += seconds * network.floor[i] * (ends.floor - temperature[i]);
+    for (double k = 0.0; k < parts; ++k) {
+        for (std::size_t i = 0; i < n; ++i)
+            right_side[i] = capacity[i] / part * temperature[i] + production[i] +
+                            network.ground[i] * ends.ground + network.floor[i] * ends.floor;
+        solver.solve(right_side, temperature);
+        for (std::size_t i = 0; i < n; ++i) {
+            flows.produced += part * production[i];
+            flows.through_ground += part * network.ground[i] * (temperature[i] - ends.ground);
+            flows.through_floor += part * network.floor[i] * (ends.floor - temperature[i]);
+        }
     }
     return flows;
 }

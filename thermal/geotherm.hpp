@@ -16,6 +16,9 @@ struct HeatParameters {
     double heat_production = 1e-6;           ///< of crust and of sediment's grains, W/m^3
     double interval = 50e3;                  ///< time between solutions, a
     std::optional<double> mantle_width = {}; ///< that stretches, m; none: as the lower crust
+    /// Extension of lower crust and mantle by faults outside of the section, m.
+    double regional_extension = 0.0;
+    double expansion = 3.28e-5; ///< thermal, of rock and grains, 1/K [McKenzie 1978]
 };
 
 /// Heat capacities, J/m^3/K: the mantle's makes its diffusivity 0.8e-6 m^2/s.

@@ -97,7 +97,15 @@ GroundLine ground_line(const State& state, const RigidBase& base, const GroundBe
     const double wall = beside.wall_x + wall_way(base, state.clock.extension.m);
     const std::vector<Point> trace = base_points(state, base, step);
     const double left = trace.front().x;
-    std::vector<Point> points{{left, beside.left + uplift_at(state, left)}};
+    const double flank = beside.left + uplift_at(state, left);
+    std::vector<Point> points{{left, flank}};
+    if (beside.cover) {
+        constexpr double farthest = 150e3, growth = 1.25; // m; of the distance
+        points.front().y += beside.cover(left);
+        for (double away = step; away < farthest; away *= growth)
+            points.push_back({left - away, flank + beside.cover(left - away)});
+        std::ranges::reverse(points);
+    }
     const GroundLevel level(state, least_age);
     std::size_t next = 0;
     const auto base_height = [&](double x) {

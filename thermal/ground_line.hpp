@@ -3,6 +3,7 @@
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,8 @@ private:
 struct GroundBeside {
     double left = 0.0, right = 0.0; ///< m
     double wall_x = 0.0;            ///< right end of the hanging wall before extension, m
+    /// Height that deposition less erosion has brought left of the hanging wall; none: nothing.
+    std::function<double(double x)> cover = {};
 };
 
 /// The ground of the discs, of the base where it is bare, and of the rock on both sides.

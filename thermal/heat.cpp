@@ -69,12 +69,14 @@ HeatCells Heat::cells(const State& state) const {
             all.capacity.push_back(grains *
                                    (grain_capacity + water_capacity * porosity / (1.0 - porosity)));
             all.production.push_back(grains * p_.heat_production);
+            all.density.push_back((1.0 - porosity) * setting_.grain_density);
         } else {
             const std::size_t layer = layered ? state.discs.get(dem::columns::layer)[i] : 0;
             const double area = d.mass[i] / setting_.rock_densities[layer];
             all.conductivity.push_back(p_.conductivity);
             all.capacity.push_back(area * crust_capacity);
             all.production.push_back(area * p_.heat_production);
+            all.density.push_back(setting_.rock_densities[layer]);
         }
     }
     using C = HeatPoints::Columns;
@@ -89,6 +91,7 @@ HeatCells Heat::cells(const State& state) const {
         all.conductivity.push_back(crust[k] ? p_.conductivity : p_.mantle_conductivity);
         all.capacity.push_back(area[k] * (crust[k] ? crust_capacity : mantle_capacity));
         all.production.push_back(crust[k] ? area[k] * p_.heat_production : 0.0);
+        all.density.push_back(crust[k] ? setting_.crust_density : setting_.mantle_density);
     }
     return all;
 }
@@ -199,19 +202,19 @@ double Heat::balance_error() const {
     return terms > 0.0 ? missing / terms : 0.0;
 }
 
+double Heat::start_temperature(Point p) const {
+    return geotherm_.at(setting_.ground.height(p.x) - p.y);
+}
+
 std::vector<double> Heat::anomaly(const State& state, const RigidBase& base,
                                   std::span<const double> edges) const {
     std::vector<double> sums(edges.empty() ? 0 : edges.size() - 1, 0.0);
     const HeatCells all = cells(state);
-    const FacetedCells faceted =
-        site_cells(all.sites, points_.ends(), ground_line(state, base, setting_.beside));
-    for (std::size_t i = 0; i < all.sites.count(); ++i) {
-        const auto after = std::ranges::upper_bound(edges, all.sites.x[i]);
-        if (after == edges.begin() || after == edges.end())
-            continue;
-        sums[static_cast<std::size_t>(after - edges.begin()) - 1] +=
-            faceted.cells[i].area * (all.temperature[i] - geotherm_.at(-all.sites.y[i]));
-    }
+    for (const CellPart& part :
+         cell_parts(all.sites, points_.ends(), ground_line(state, base, setting_.beside), edges))
+        sums[part.strip] +=
+            part.area * (all.temperature[part.cell] -
+                         start_temperature({all.sites.x[part.cell], all.sites.y[part.cell]}));
     return sums;
 }
 

@@ -4,6 +4,7 @@
 #include "thermal/geotherm.hpp"
 #include "thermal/heat_points.hpp"
 
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct HeatCells {
     Sites sites;
     std::vector<bool> is_new;                 ///< came since the last solution
     std::vector<double> conductivity;         ///< W/m/K
+    std::vector<double> density;              ///< of rock, or of sediment's grains, kg/m^3 of cell
     std::vector<double> capacity, production; ///< J/m/K; W/m
     std::vector<double> temperature;          ///< degrees Celsius
 };
@@ -50,6 +52,12 @@ public:
     /// What is missing in that balance, over the sum of its terms.
     double balance_error() const;
 
+    /// Tells heat and its points what comes and goes beside the hanging wall; see GroundBeside.
+    void cover_by(const std::function<double(double x)>& cover) {
+        setting_.beside.cover = cover;
+        points_.cover_by(cover);
+    }
+
     const HeatParameters& parameters() const { return p_; }
     const HeatSetting& setting() const { return setting_; }
     const Geotherm& geotherm() const { return geotherm_; }
@@ -60,9 +68,11 @@ public:
     /// The ground of the last solution, below the sediment that has come since.
     GroundLine solved_ground(const dem::State& state, const dem::RigidBase& base) const;
 
-    /// Integral of temperature less that of the start at the same depth over columns between
-    /// places that ascend, by the cells whose sites lie there, K m^2: what thermal expansion loads
-    /// a base with.
+    /// Temperature of the start at a place: above the ground of then, that of the ground.
+    double start_temperature(dem::Point p) const;
+
+    /// Integral of temperature less that of the start at the same place over columns between
+    /// places that ascend, K m^2.
     std::vector<double> anomaly(const dem::State& state, const dem::RigidBase& base,
                                 std::span<const double> edges) const;
 

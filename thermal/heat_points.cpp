@@ -11,7 +11,8 @@ using namespace dem;
 
 namespace {
 
-constexpr double widest = 6e3; // m, of a cell
+constexpr double widest = 6e3;         // m, of a cell
+constexpr double reach_of_point = 2.5; // widths
 
 /// Cells of the rock without discs, quartered until they are as small as their distance asks.
 class Layout {
@@ -81,7 +82,8 @@ SectionEnds section_ends(const HeatParameters& p, const HeatSetting& setting) {
         const double width = std::max(setting.shear->crust_width, setting.shear->mantle_width);
         right = std::max(right, setting.shear->left + width);
     }
-    return {left - beyond, right + std::max(0.0, setting.greatest_extension) + beyond,
+    const double share = setting.shear ? setting.shear->share : 1.0;
+    return {left - beyond, right + std::max(0.0, share * setting.greatest_extension) + beyond,
             -p.lithosphere};
 }
 
@@ -96,7 +98,8 @@ double estimated_points(const SectionEnds& ends, double edge, double mean_radius
 HeatPoints::HeatPoints(const HeatParameters& p, const HeatSetting& setting,
                        const Schedule& schedule)
     : Event("heat_points", schedule), p_(p), setting_(setting), ends_(section_ends(p, setting)) {
-    for (const char* name : {Columns::x, Columns::y, Columns::uplift, Columns::reach})
+    for (const char* name :
+         {Columns::x, Columns::y, Columns::height, Columns::uplift, Columns::reach})
         memory.add<double>(name, "m", 0.0);
     memory.add<double>(Columns::area, "m^2", 0.0);
     memory.add<double>(Columns::temperature, "degC", 0.0);
@@ -107,6 +110,7 @@ HeatPoints::HeatPoints(const HeatParameters& p, const HeatSetting& setting,
 struct HeatPoints::Point {
     dem::Point place;
     double temperature;
+    double height;            ///< of its rock, which stretching thins
     double reach, area = 0.0; ///< the area of one at the start is that of its cell
     bool is_crust = false, goes_with_wall = false;
 };
@@ -116,6 +120,7 @@ void HeatPoints::add(const State& state, const Point& point) {
     memory.resize(row + 1);
     memory.get<double>(Columns::x)[row] = point.place.x;
     memory.get<double>(Columns::y)[row] = point.place.y;
+    memory.get<double>(Columns::height)[row] = point.height;
     memory.get<double>(Columns::uplift)[row] = uplift_at(state, point.place.x);
     memory.get<double>(Columns::temperature)[row] = point.temperature;
     memory.get<double>(Columns::area)[row] = point.area;
@@ -176,7 +181,8 @@ void HeatPoints::lay_out(const State& state, const RigidBase& base) {
     for (const Layout::Leaf& leaf : leaves)
         add(state, {.place = leaf.centre,
                     .temperature = geotherm.at(ground.depth(leaf.centre)),
-                    .reach = 2.5 * std::max(leaf.width, leaf.height),
+                    .height = leaf.height,
+                    .reach = reach_of_point * std::max(leaf.width, leaf.height),
                     .is_crust = leaf.centre.y > -p_.crust,
                     .goes_with_wall = leaf.centre.x > wall && leaf.centre.y > floor});
 }
@@ -198,7 +204,7 @@ namespace {
 struct Sheared {
     const PureShear& shear;
     double top, crust; ///< depth of the detachment; thickness of the crust below it, m
-    double extension;
+    double extension;  ///< of crust and mantle, m
 
     double stretch(double x, double width) const {
         const bool within = x >= shear.left && x <= shear.left + width + extension;
@@ -221,6 +227,7 @@ double stretched_x(double x, double left, double width, double before, double no
 void HeatPoints::move(const State& state, double depth, double before, double now, double way) {
     const auto x = memory.get<double>(Columns::x), y = memory.get<double>(Columns::y);
     const auto uplift = memory.get<double>(Columns::uplift);
+    const auto height = memory.get<double>(Columns::height);
     const auto crust = memory.get<std::uint8_t>(Columns::crust);
     const auto with_wall = memory.get<std::uint8_t>(Columns::with_wall);
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -230,25 +237,62 @@ void HeatPoints::move(const State& state, double depth, double before, double no
         } else if (setting_.shear && -y[k] > depth) {
             const PureShear& shear = *setting_.shear;
             const double below = std::max(0.0, p_.crust - depth);
-            const Sheared from{shear, depth, below, before}, to{shear, depth, below, now};
+            const double first = shear.share * before, last = shear.share * now;
+            const Sheared from{shear, depth, below, first}, to{shear, depth, below, last};
             const double width = crust[k] ? shear.crust_width : shear.mantle_width;
             const double start = crust[k] ? depth : from.moho(x[k]);
-            const double thickness = (-y[k] - start) * from.stretch(x[k], width);
-            x[k] = stretched_x(x[k], shear.left, width, before, now);
-            y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / to.stretch(x[k], width));
+            const double was = from.stretch(x[k], width);
+            const double thickness = (-y[k] - start) * was;
+            x[k] = stretched_x(x[k], shear.left, width, first, last);
+            const double is = to.stretch(x[k], width);
+            y[k] = -((crust[k] ? depth : to.moho(x[k])) + thickness / is);
+            height[k] *= was / is;
         }
         uplift[k] = uplift_at(state, x[k]);
         y[k] += uplift[k];
     }
 }
 
-/// Takes away what has left the section.
-void HeatPoints::drop() {
+/// Makes points of those that have become wide: between them the cells of rows below would reach
+/// up.
+void HeatPoints::split(const State& state) {
+    for (std::size_t k = 0, end = memory.rows(); k < end; ++k) {
+        const double height = get<double>(Columns::height)[k];
+        const double width = get<double>(Columns::area)[k] / height;
+        const double reach = get<double>(Columns::reach)[k];
+        const double parts = std::floor(width / (reach / reach_of_point));
+        if (parts < 2.0)
+            continue;
+        const double part = width / parts, left = get<double>(Columns::x)[k] - 0.5 * width;
+        const Point whole{.place = {left + 0.5 * part, get<double>(Columns::y)[k]},
+                          .temperature = get<double>(Columns::temperature)[k],
+                          .height = height,
+                          .reach = reach,
+                          .area = part * height,
+                          .is_crust = get<std::uint8_t>(Columns::crust)[k] != 0,
+                          .goes_with_wall = get<std::uint8_t>(Columns::with_wall)[k] != 0};
+        memory.get<double>(Columns::x)[k] = whole.place.x;
+        memory.get<double>(Columns::area)[k] = whole.area;
+        for (double n = 1.0; n < parts; ++n) {
+            Point next = whole;
+            next.place.x += n * part;
+            add(state, next);
+        }
+    }
+}
+
+/// Takes away what has left the section, and what has been eroded beside the hanging wall.
+void HeatPoints::drop(const State& state, const RigidBase& base) {
+    std::optional<GroundLine> flank;
+    if (setting_.beside.cover)
+        flank = ground_line(state, base, setting_.beside);
+    const double breakaway = flank ? base_points(state, base, widest).front().x : 0.0;
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
     const auto crust = get<std::uint8_t>(Columns::crust);
     std::vector<std::int32_t> kept;
     for (std::size_t k = 0; k < x.size(); ++k)
-        if (x[k] > ends_.left && x[k] < ends_.right && y[k] > ends_.floor)
+        if (x[k] > ends_.left && x[k] < ends_.right && y[k] > ends_.floor &&
+            !(flank && x[k] < breakaway && flank->depth({x[k], y[k]}) <= 0.0))
             kept.push_back(static_cast<std::int32_t>(k));
         else
             carried_out_ += (crust[k] ? crust_capacity : mantle_capacity) *
@@ -257,37 +301,50 @@ void HeatPoints::drop() {
         memory.reorder(kept);
 }
 
-/// Adds points where rock has risen from the section's floor.
-/// @param stretch  greatest factor of it
-void HeatPoints::fill_floor(const State& state, double stretch) {
-    const double columns = std::ceil((ends_.right - ends_.left) / widest);
-    const double width = (ends_.right - ends_.left) / columns;
-    std::vector<double> own(static_cast<std::size_t>(columns), 0.0);
+/// Lower end of the rock in columns of a width, m. Stretched points are wider apart than columns,
+/// so that neighbours within a reach count.
+std::vector<double> HeatPoints::lowest_rock(std::size_t columns, double width,
+                                            std::size_t reach) const {
+    std::vector<double> own(columns, 0.0), lowest;
     const auto x = get<double>(Columns::x), y = get<double>(Columns::y);
+    const auto height = get<double>(Columns::height);
     for (std::size_t k = 0; k < x.size(); ++k) {
         double& least = own[static_cast<std::size_t>(
-            std::clamp((x[k] - ends_.left) / width, 0.0, columns - 1.0))];
-        least = std::min(least, y[k]);
+            std::clamp((x[k] - ends_.left) / width, 0.0, static_cast<double>(columns) - 1.0))];
+        least = std::min(least, y[k] - 0.5 * height[k]);
     }
-    // Stretched points are wider apart than columns.
-    const auto reach = static_cast<std::size_t>(std::ceil(0.5 * stretch));
-    std::vector<double> lowest;
-    for (std::size_t column = 0; column < own.size(); ++column) {
-        const std::size_t end = std::min(column + reach + 1, own.size());
+    for (std::size_t column = 0; column < columns; ++column) {
+        const std::size_t end = std::min(column + reach + 1, columns);
         lowest.push_back(*std::min_element(
             own.begin() + static_cast<std::ptrdiff_t>(column - std::min(column, reach)),
             own.begin() + static_cast<std::ptrdiff_t>(end)));
     }
-    for (std::size_t column = 0; column < lowest.size(); ++column)
-        while (lowest[column] - ends_.floor > 1.5 * widest) {
-            lowest[column] -= widest;
+    return lowest;
+}
+
+/// Adds points where rock has risen from the section's floor by half a cell: as much rock as came,
+/// for what is missing would cool without its heat.
+/// @param stretch  greatest factor of it
+void HeatPoints::fill_floor(const State& state, double stretch) {
+    const double columns = std::ceil((ends_.right - ends_.left) / widest);
+    const double width = (ends_.right - ends_.left) / columns;
+    const std::vector<double> lowest =
+        lowest_rock(static_cast<std::size_t>(columns), width,
+                    static_cast<std::size_t>(std::ceil(0.5 * stretch)));
+    for (std::size_t column = 0; column < lowest.size(); ++column) {
+        const double room = lowest[column] - ends_.floor;
+        if (room < 0.5 * widest)
+            continue;
+        const double rows = std::ceil(room / widest), height = room / rows;
+        for (double row = 0.0; row < rows; ++row)
             add(state, {.place = {ends_.left + (static_cast<double>(column) + 0.5) * width,
-                                  lowest[column]},
+                                  lowest[column] - (row + 0.5) * height},
                         .temperature = p_.base_temperature,
-                        .reach = 2.5 * widest,
-                        .area = width * widest});
-            carried_in_ += mantle_capacity * width * widest * p_.base_temperature;
-        }
+                        .height = height,
+                        .reach = reach_of_point * widest,
+                        .area = width * height});
+        carried_in_ += mantle_capacity * width * room * p_.base_temperature;
+    }
 }
 
 bool HeatPoints::apply(State& state, const RigidBase& base) {
@@ -295,10 +352,11 @@ bool HeatPoints::apply(State& state, const RigidBase& base) {
     const double before = base.motion.position(schedule().due(applied)).m;
     const double now = base.motion.position(schedule().due(applied + 1)).m;
     move(state, base_depth(base), before, now, wall_way(base, now) - wall_way(base, before));
-    drop();
+    drop(state, base);
     if (setting_.shear) {
+        split(state);
         const double width = std::min(setting_.shear->crust_width, setting_.shear->mantle_width);
-        fill_floor(state, (width + std::max(before, now)) / width);
+        fill_floor(state, (width + setting_.shear->share * std::max(before, now)) / width);
     }
     return false;
 }

@@ -83,6 +83,28 @@ private:
     std::vector<std::pair<double, std::int32_t>> near_; // square of the distance; site
 };
 
+void add_parts(const PowerPolygon& polygon, double x, std::size_t cell,
+               std::span<const double> lines, std::vector<CellPart>& parts) {
+    double left = 0.0, right = 0.0;
+    polygon.for_each_edge([&](const auto& a, const auto&) {
+        left = std::min(left, a.p.x);
+        right = std::max(right, a.p.x);
+    });
+    const auto next = std::ranges::upper_bound(lines, x + left) - lines.begin();
+    for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(next, 1));
+         k < lines.size() && lines[k - 1] < x + right; ++k) {
+        PowerPolygon part = polygon;
+        part.clip({1.0, 0.0}, lines[k] - x, facet_open);
+        part.clip({-1.0, 0.0}, x - lines[k - 1], facet_open);
+        double moment = 0.0;
+        part.for_each_edge([&](const auto& a, const auto& b) {
+            moment += (a.p.x + b.p.x) * (a.p.x * b.p.y - b.p.x * a.p.y) / 6.0;
+        });
+        if (const double area = part.cell().area; area > 0.0)
+            parts.push_back({cell, k - 1, area, x + moment / area});
+    }
+}
+
 } // namespace
 
 FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground) {
@@ -96,6 +118,25 @@ FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const Groun
             piece.add(cutter.cut(i), i, sites.x, sites.y);
         return piece;
     }));
+}
+
+std::vector<CellPart> cell_parts(const Sites& sites, const SectionEnds& ends,
+                                 const GroundLine& ground, std::span<const double> lines) {
+    if (sites.count() == 0)
+        return {};
+    const NearSites tree(sites.x, sites.y);
+    struct Piece {
+        std::vector<CellPart> parts;
+    };
+    const std::vector<Piece> pieces =
+        by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
+            Piece piece;
+            Cutter cutter(sites, ends, ground, tree);
+            for (; i < end; ++i)
+                add_parts(cutter.cut(i), sites.x[i], i, lines, piece.parts);
+            return piece;
+        });
+    return joined(pieces, &Piece::parts);
 }
 
 } // namespace listric::thermal

@@ -30,4 +30,15 @@ struct SectionEnds {
 /// (facet_on_base) and at its sides (facet_open).
 dem::FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground);
 
+/// Part of a cell between two vertical lines.
+struct CellPart {
+    std::size_t cell, strip; ///< strip k is between lines k and k + 1
+    double area;             ///< m^2
+    double x;                ///< of its centre of area, m
+};
+
+/// The same cells, cut by vertical lines whose x ascends: what lies between them.
+std::vector<CellPart> cell_parts(const Sites& sites, const SectionEnds& ends,
+                                 const GroundLine& ground, std::span<const double> lines);
+
 } // namespace listric::thermal

@@ -113,7 +113,7 @@ void export_section(const Observation& now, const std::vector<fem::StressPatch>&
 /// @param tables  folder of footwall.csv
 bool export_footwall(const RunFolder& run, const fs::path& folder, const fs::path& tables) {
     std::vector<std::unique_ptr<Event>> events;
-    const std::unique_ptr<BaseDriver> driver = make_base_driver(run.scene, run.parts, events);
+    const std::unique_ptr<BaseDriver> driver = make_base_driver(run.scene, run.parts, {}, events);
     const int decimals = decimals_for(run.scene.output.interval);
     std::string rows;
     const std::vector<fs::path> moments = shown(run.snapshots);

@@ -89,7 +89,7 @@ class FootwallReader {
 public:
     explicit FootwallReader(const RunFolder& folder) {
         try {
-            driver_ = make_base_driver(folder.scene, folder.parts, events_);
+            driver_ = make_base_driver(folder.scene, folder.parts, {}, events_);
         } catch (const UsageError&) { // without its plug-in the report has the discs alone
         }
     }

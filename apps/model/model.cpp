@@ -61,21 +61,25 @@ Events make_events(const Scene& scene, const ModelParts& parts) {
     return events;
 }
 
-std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
-                                                        const ModelParts& parts) {
+std::vector<coupling::FootwallLoad>
+make_footwall_loads(const Scene& scene, const ModelParts& parts,
+                    std::span<const std::unique_ptr<Event>> events) {
     std::vector<coupling::FootwallLoad> loads;
-    for (const EffectPart& part : scene.effects)
-        for (const auto load : {part.effect->load_footwall, part.effect->load_bending_base})
-            if (load)
-                loads.push_back(load(scene, parts));
+    for (const EffectPart& part : scene.effects) {
+        if (part.effect->load_footwall)
+            loads.push_back(part.effect->load_footwall(scene, parts));
+        if (part.effect->load_bending_base)
+            loads.push_back(part.effect->load_bending_base(scene, parts, events));
+    }
     return loads;
 }
 
 std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
-                                             std::vector<std::unique_ptr<Event>>& events) {
+                                             std::span<const std::unique_ptr<Event>> events,
+                                             std::vector<std::unique_ptr<Event>>& loads) {
     for (const EffectPart& part : scene.effects)
         if (part.effect->drive_base)
-            return part.effect->drive_base(scene, parts, events);
+            return part.effect->drive_base(scene, parts, events, loads);
     return nullptr;
 }
 

@@ -5,6 +5,7 @@
 #include "coupling/footwall_loads.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,14 +20,19 @@ ModelParts make_parts(const Scene& scene);
 /// that deforms come with its driver.
 dem::Events make_events(const Scene& scene, const ModelParts& parts);
 
-/// The loads on an elastic footwall, in the order in which they are applied.
-std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
-                                                        const ModelParts& parts);
+/// The loads on an elastic footwall, in the order in which they are applied. They refer to the
+/// events of the run; where there are none, they stay as they are.
+std::vector<coupling::FootwallLoad>
+make_footwall_loads(const Scene& scene, const ModelParts& parts,
+                    std::span<const std::unique_ptr<dem::Event>> events);
 
 /// Driver of the base's nodes; null where none moves them. The events of the loads on the base are
-/// appended to `events`, for the run to apply: they and the driver refer to each other.
+/// appended to `loads`, for the run to apply: they, the driver and the run's other events refer to
+/// each other.
+/// @param events  of the run; none where only its states are looked at
 std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
-                                             std::vector<std::unique_ptr<dem::Event>>& events);
+                                             std::span<const std::unique_ptr<dem::Event>> events,
+                                             std::vector<std::unique_ptr<dem::Event>>& loads);
 
 /// Measures of effects, by their names.
 struct EffectMeasures {

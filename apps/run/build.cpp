@@ -28,7 +28,7 @@ void drive(Simulation& simulation, RunView& run) {
     if (run.parts.base_moves && !run.driver) {
         const PartWatch time = run.watch(Part::base);
         std::vector<std::unique_ptr<Event>> loads;
-        run.driver = make_base_driver(run.scene, run.parts, loads);
+        run.driver = make_base_driver(run.scene, run.parts, simulation.events(), loads);
         for (const std::string& line : run.driver->description())
             run.log.say(line);
         for (auto& event : loads)

@@ -74,7 +74,7 @@ struct Case {
 fem::Plate plate_of(const FlexurePlan& plan) {
     const BendingBase& base = plan.bending();
     return {base.young_modulus, base.poisson_ratio, base.elastic_thickness,
-            (base.mantle_density - base.infill_density) * plan.gravity};
+            (base.floats_on() - base.infill_density) * plan.gravity};
 }
 
 Case make_case(const FlexurePlan& plan) {
@@ -85,7 +85,7 @@ Case make_case(const FlexurePlan& plan) {
     c.request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
     c.request.depth = te;
     c.request.surface_spring = (base.crust_density - base.infill_density) * plan.gravity;
-    c.request.base_spring = (base.mantle_density - base.crust_density) * plan.gravity;
+    c.request.base_spring = (base.floats_on() - base.crust_density) * plan.gravity;
     c.request.degree = base.degree;
     c.request.solver = base.solver;
     c.request.cell_size = te / base.cells;

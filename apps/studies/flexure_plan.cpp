@@ -72,10 +72,10 @@ void check(const FlexurePlan& plan, const toml::table& document) {
     const auto refuse = [&](std::string_view table, const char* key, const std::string& message) {
         fail(entry_at(document, fmt::format("{}.{}", table, key)), message);
     };
-    if (!(base.mantle_density > base.infill_density))
+    if (!(base.floats_on() > base.infill_density))
         refuse(plan.base.effect->name, "mantle_density_kg_per_m3",
                fmt::format("is {}, allowed: above infill_density_kg_per_m3 = {}",
-                           text(base.mantle_density), text(base.infill_density)));
+                           text(base.floats_on()), text(base.infill_density)));
     if (const std::string why = objection_to_densities(base); !why.empty())
         refuse(plan.base.effect->name, "crust_density_kg_per_m3", why);
     const auto refuse_short = [&](const char* key, double length) {

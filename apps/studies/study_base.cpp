@@ -177,7 +177,7 @@ StudyRun run_of(const IsostasyPlan& plan, const Scene& scene, const Fill& fill, 
 fem::Plate plate_of(const Scene& scene, double thickness) {
     const BendingBase& base = *bending_base(scene);
     return {base.young_modulus, base.poisson_ratio, thickness,
-            (base.mantle_density - base.infill_density) * make_parts(scene).gravity};
+            (base.floats_on() - base.infill_density) * make_parts(scene).gravity};
 }
 
 /// A finished run: its summary and its last window beside the plate under the same loads.

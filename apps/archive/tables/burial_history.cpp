@@ -3,7 +3,9 @@
 #include "apps/archive/folder/setting.hpp"
 #include "apps/archive/tables/exports.hpp"
 #include "apps/measures/basin/profile.hpp"
+#include "apps/measures/strata/backstripping.hpp"
 #include "apps/measures/strata/burial.hpp"
+#include "apps/model/bending_base.hpp"
 #include "apps/support/fineness.hpp"
 #include "thermal/columns.hpp"
 
@@ -53,16 +55,48 @@ struct WellLines {
     std::map<int, Line> lines;
 };
 
+/// Tectonic subsidence when each stratum had been laid down, by Athy's law and the grains that the
+/// well meets now: sediment was up to the target line, and water, if any, to its level.
+std::map<int, double> backstripped(const Observation& drilled, const WellRock& rock, double x) {
+    const Setting setting = make_setting(drilled.scene, drilled.parts);
+    const SedimentFacts& sediment = *drilled.parts.sediment;
+    BackstrippingDensities densities{.grains = sediment.grain_density};
+    if (const BendingBase* base = bending_base(drilled.scene))
+        densities.mantle = base->mantle_density;
+    const auto& water = drilled.parts.water;
+    if (water)
+        densities.water = water->density;
+    const auto sea = [&](dem::Travel travel) {
+        return water ? water->level.heights.at(water->level.calendar.age(travel)).height(0.0) : 0.0;
+    };
+    std::vector<DrilledStratum> strata;
+    std::map<int, double> found;
+    for (const BuriedStratum& b :
+         buried_strata(setting, drilled.parts.base, drilled.state, sediment.grain_density, rock)) {
+        strata.push_back(
+            {(b.base - b.top) * (1.0 - b.porosity), setting.sediment->pores_of(b.stratum)});
+        const dem::Travel then = rock.at(b.stratum).deposited_at;
+        const double ground = setting.sediment->target.at(setting.calendar.age(then)).height(x);
+        found[b.stratum] = tectonic_subsidence(decompacted(strata, densities), densities,
+                                               sea(then) - ground, sea(then) - sea({}));
+    }
+    return found;
+}
+
 WellLines begin_well(const WellPlace& place, const Observation& drilled, double grain_density) {
     const Setting setting = make_setting(drilled.scene, drilled.parts);
     WellLines well{place, rock_of_well(setting, drilled.state, grain_density, place.x), {}};
+    const std::map<int, double> tectonic = backstripped(drilled, well.rock, place.x);
     for (const auto& [number, stratum] : well.rock)
         well.lines[number].values = {place.name,
                                      static_cast<double>(number),
                                      setting.calendar.age(stratum.deposited_at),
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
                                      setting.sediment->pores_of(number).surface_porosity,
-                                     static_cast<double>(stratum.ids.size())};
+                                     static_cast<double>(stratum.ids.size()),
+                                     tectonic.contains(number)
+                                         ? to_millimetre(drilled.state, tectonic.at(number))
+                                         : std::nan("")};
     return well;
 }
 
@@ -124,7 +158,7 @@ LineTable burial_table(const RunFolder& run, const std::filesystem::path& drille
     LineTable table{"burial",
                     "stratum",
                     {"name", "stratum", "deposited_at_a", "deposited_thickness_m",
-                     "deposited_porosity", "discs"},
+                     "deposited_porosity", "discs", "tectonic_subsidence_m"},
                     {"base_depth_m", "ground_depth_m", "thickness_m", "porosity", "extension_m",
                      "time_a", "age_a"}};
     if (!run.parts.sediment)

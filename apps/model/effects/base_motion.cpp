@@ -259,6 +259,7 @@ const Effect& effect() {
                                                                     scene.extension.rate));
             },
         .drive_base = [](const Scene& scene, const ModelParts& parts,
+                         std::span<const std::unique_ptr<dem::Event>>,
                          std::vector<std::unique_ptr<dem::Event>>&) -> std::unique_ptr<BaseDriver> {
             if (scene.find<P>()->fault_x)
                 return nullptr;

@@ -50,6 +50,11 @@ std::vector<Parameter> plate_parameters() {
         {"mantle_density_kg_per_m3", at<&P::bending, &B::mantle_density>, "kg/m3", ranges::density,
          "rho_m", "density of the mantle, on which the base floats",
          "Raising it makes the base float more firmly: it moves less under a load."},
+        {"asthenosphere_density_kg_per_m3", at<&P::bending, &B::asthenosphere_density>, "kg/m3",
+         ranges::density, "",
+         "density of what flows in below the mantle where the base rises, and away where it sinks; "
+         "default: the mantle's. Hot mantle is lighter: 3184 beside 3330 is McKenzie's",
+         "Lowering it lets the base sink more under every load.", between(3150, 3300)},
         {"infill_density_kg_per_m3", at<&P::bending, &B::infill_density>, "kg/m3", between(0, 20e3),
          "",
          "density of the fill of the deflection: 0 air, 1030 water, 2400 sediment; it acts where "
@@ -355,7 +360,7 @@ std::string explain(const Scene& scene, EffectList list) {
         "    {}\n",
         base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
         base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3, base.update_interval,
-        base.bending.crust_density, base.bending.mantle_density - base.bending.crust_density,
+        base.bending.crust_density, base.bending.floats_on() - base.bending.crust_density,
         base.bending.infill_density > 0.0
             ? fmt::format("infill of {} kg/m3 on the footwall's surface: {} kg/m3 there, where it "
                           "sinks and\n    where it rises",

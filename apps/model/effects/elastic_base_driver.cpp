@@ -11,6 +11,7 @@
 #include "coupling/base_memory.hpp"
 #include "coupling/creep.hpp"
 #include "coupling/elastic_base.hpp"
+#include "coupling/footwall_erosion.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
@@ -18,6 +19,7 @@
 #include "dem/numbers/hash.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/numbers/units.hpp"
+#include "thermal/heat.hpp"
 
 #include <fmt/format.h>
 
@@ -99,21 +101,26 @@ std::string moment_text(const Clock& clock, const Motion& motion) {
 class ElasticBaseDriver final : public BaseDriver {
 public:
     ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
-                      std::vector<std::unique_ptr<Event>>& events)
+                      std::span<const std::unique_ptr<Event>> events,
+                      std::vector<std::unique_ptr<Event>>& loads)
         : request_(make_footwall_request(scene, parts)), mesh_checksum_(checksum_of(request_)),
           rock_weight_(elastic_base(scene)->bending.crust_density * parts.gravity),
           footwall_(refusing([&] { return fem::make_footwall(request_); })),
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
           loads_(refusing([&] {
-              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
+              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts, events),
+                                   loads);
           })) {
+        const auto* const erosion = find<FootwallErosion>(loads);
+        if (auto* const heat = find<thermal::Heat>(events); heat && erosion)
+            heat->cover_by([erosion](double x) { return erosion->cover(x); });
         if (footwall_->stress_points().empty())
             return;
         auto creep = std::make_unique<Creep>(*footwall_, *base_, loads_, make_calendar(scene),
                                              Travel(scene.extension.distance));
         creep_ = creep.get();
         // Before the loads: the base has moved under what they have been.
-        events.insert(events.begin(), std::move(creep));
+        loads.insert(loads.begin(), std::move(creep));
     }
 
     std::vector<std::string> description() const override {
@@ -260,8 +267,9 @@ BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
 } // namespace
 
 std::unique_ptr<BaseDriver> make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
-                                                     std::vector<std::unique_ptr<Event>>& events) {
-    return std::make_unique<ElasticBaseDriver>(scene, parts, events);
+                                                     std::span<const std::unique_ptr<Event>> events,
+                                                     std::vector<std::unique_ptr<Event>>& loads) {
+    return std::make_unique<ElasticBaseDriver>(scene, parts, events, loads);
 }
 
 } // namespace listric

@@ -41,7 +41,7 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     // flank, too, where the surface rises.
     request.surface_spring = (base.bending.crust_density - base.bending.infill_density) * gravity;
     request.detachment_spring = base.bending.crust_density * gravity;
-    request.base_spring = (base.bending.mantle_density - base.bending.crust_density) * gravity;
+    request.base_spring = (base.bending.floats_on() - base.bending.crust_density) * gravity;
     if (relaxes(base))
         request.step = creep_schedule(make_calendar(scene)).seconds(1);
     request.degree = base.bending.degree;

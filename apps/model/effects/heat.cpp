@@ -1,5 +1,10 @@
 #include "thermal/heat.hpp"
 
+#include "coupling/thermal_load.hpp"
+#include "thermal/expansion.hpp"
+#include "thermal/rift_column.hpp"
+
+#include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/heat/heat_measures.hpp"
 #include "apps/model/model.hpp"
@@ -52,6 +57,15 @@ std::vector<Parameter> parameters() {
          "width of the mantle that stretches below the lower crust; default: the lower crust's, "
          "and none without a lower crust that stretches",
          "Raising it spreads the heat that rises: a steer's head."},
+        {"regional_extension_m", at<&P::regional_extension>, "m", between(0, 1e6), "",
+         "extension of lower crust and mantle beyond that of the hanging wall, by faults outside "
+         "of the section; in proportion to the wall's way",
+         "Raising it thins and heats what is below the detachment more: one fault of 10 km alone "
+         "makes little thermal subsidence."},
+        {"thermal_expansion_per_k", at<&P::expansion>, "1/K", between(0, 1e-3), "",
+         "thermal expansion of rock and grains, by which temperature loads a base that bends",
+         "Raising it lifts hot rock more, and lets it sink more as it cools; 0: no load.",
+         between(3e-5, 3.5e-5)},
     };
 }
 
@@ -68,15 +82,21 @@ thermal::HeatSetting setting(const Scene& scene, const ModelParts& parts) {
     thermal::HeatSetting s;
     s.beside = {ground.height(0.0), ground.height(scene.hanging_wall.length),
                 scene.hanging_wall.length};
+    s.ground = ground;
     s.greatest_extension = greatest_extension(scene);
     if (const auto& crust = parts.stretched_crust)
-        s.shear = {crust->left, crust->width, p.mantle_width.value_or(crust->width)};
+        s.shear = {crust->left, crust->width, p.mantle_width.value_or(crust->width),
+                   parts.stretch_share};
     s.rock_densities.push_back(scene.hanging_wall.rock_density);
     for (const LayerFacts& layer : parts.layers)
         s.rock_densities.push_back(layer.rock.density);
     if (parts.sediment) {
         s.grain_density = parts.sediment->grain_density;
         s.surface_porosity = parts.sediment->surface_porosity;
+    }
+    if (const BendingBase* base = bending_base(scene)) {
+        s.crust_density = base->crust_density;
+        s.mantle_density = base->mantle_density;
     }
     return s;
 }
@@ -88,6 +108,81 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     dem::add(events, std::move(points));
     dem::add(events,
              std::make_unique<thermal::Heat>(*scene.find<P>(), facts, rock, schedule(scene)));
+}
+
+/// Rock below the detachment stretches by more than the hanging wall is pulled out, in proportion.
+void contribute(const Scene& scene, ModelParts& parts) {
+    const double own = greatest_extension(scene), more = scene.find<P>()->regional_extension;
+    if (own > 0.0 && more > 0.0)
+        parts.stretch_share = 1.0 + more / own;
+}
+
+/// Ends of what temperatures change in, m.
+std::pair<double, double> loaded(const Scene& scene, const ModelParts& parts) {
+    const thermal::HeatSetting s = setting(scene, parts);
+    double left = 0.0, right = scene.hanging_wall.length + greatest_extension(scene);
+    if (s.shear) {
+        left = std::min(left, s.shear->left);
+        right =
+            std::max(right, s.shear->left + std::max(s.shear->crust_width, s.shear->mantle_width) +
+                                s.shear->share * greatest_extension(scene));
+    }
+    return {left, right};
+}
+
+coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts,
+                                         std::span<const std::unique_ptr<dem::Event>> events) {
+    const BendingBase& base = *bending_base(scene);
+    const auto [left, right] = loaded(scene, parts);
+    const std::vector<double> knots = coupling::thermal_knots(left, right, base.left, base.right);
+    coupling::ThermalPressure pressure;
+    if (const auto* const heat = dem::find<const thermal::Heat>(events))
+        pressure = [heat, knots, gravity = parts.gravity](const dem::State& state,
+                                                          const dem::RigidBase& rigid) {
+            std::vector<double> weight = thermal::mass_lost(*heat, state, rigid, knots);
+            for (double& p : weight)
+                p *= -gravity;
+            return weight;
+        };
+    return coupling::thermal_load(knots, pressure, schedule(scene));
+}
+
+void check_stretching(const Scene& scene, const Refuse& refuse) {
+    const P& p = *scene.find<P>();
+    const bool stretches = make_parts(scene).stretched_crust.has_value();
+    if (p.mantle_width && !stretches)
+        refuse("heat.mantle_width_m",
+               "is there, but no lower crust stretches; add the table that stretches it, or leave "
+               "the width out");
+    if (p.regional_extension > 0.0 && !stretches)
+        refuse("heat.regional_extension_m",
+               fmt::format("is {}, but no lower crust stretches; add the table that stretches it, "
+                           "or leave the extension out",
+                           text(p.regional_extension)));
+    if (p.regional_extension > 0.0 && !(greatest_extension(scene) > 0.0))
+        refuse("heat.regional_extension_m",
+               fmt::format("is {} and goes with the wall's way out, but the wall is not pulled "
+                           "out; allowed: 0",
+                           text(p.regional_extension)));
+    const double shortening = -make_parts(scene).stretch_share * least_extension(scene);
+    if (p.mantle_width && shortening >= *p.mantle_width)
+        refuse("heat.mantle_width_m",
+               fmt::format("is {}, but [[stage]] shortens it by {}; widen it",
+                           text(*p.mantle_width), text(shortening)));
+}
+
+std::string warning(const Scene& scene) {
+    const BendingBase* const base = bending_base(scene);
+    const ModelParts parts = make_parts(scene);
+    if (!base || !parts.stretched_crust)
+        return "";
+    const auto [left, right] = loaded(scene, parts);
+    return left < base->left || right > base->right
+               ? fmt::format("heat: rock that stretches reaches from x = {} to {}, beyond the "
+                             "footwall from its left_m = {} to right_m = {}: its temperatures load "
+                             "nothing there",
+                             text(left), text(right), text(base->left), text(base->right))
+               : std::string();
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
@@ -105,20 +200,26 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("is {}, allowed: above surface_temperature_c, {}",
                            text(p.base_temperature), text(p.surface_temperature)));
     if (thermal::Geotherm(p).mantle_heat_flow() <= 0.0)
-        refuse("heat.heat_production_w_per_m3",
-               fmt::format("is {}: the crust makes more heat than leaves through the ground, and "
-                           "the mantle is hotter than its base; lower it or crust_m",
-                           text(p.heat_production)));
-    const auto crust = make_parts(scene).stretched_crust;
-    if (p.mantle_width && !crust)
-        refuse("heat.mantle_width_m",
-               "is there, but no lower crust stretches; add the table that stretches it, or leave "
-               "the width out");
-    if (const double shortening = -least_extension(scene);
-        p.mantle_width && shortening >= *p.mantle_width)
-        refuse("heat.mantle_width_m",
-               fmt::format("is {}, but [[stage]] shortens it by {}; widen it",
-                           text(*p.mantle_width), text(shortening)));
+        refuse("heat.base_temperature_c",
+               fmt::format("is {}, but the crust's heat_production_w_per_m3 = {} makes more than "
+                           "leaves through the ground, so that its own base is hotter; raise it, "
+                           "or lower that or crust_m",
+                           text(p.base_temperature), text(p.heat_production)));
+    check_stretching(scene, refuse);
+}
+
+std::string warning(const Scene& scene) {
+    constexpr double longest = 5e6; // a
+    const auto pauses = make_calendar(scene).pauses();
+    if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
+        return "";
+    const auto stage = std::ranges::find_if(*scene.find<Stages>(), [](const StageParameters& one) {
+        return one.step.value_or(0.0) > longest;
+    });
+    return fmt::format("stage[{}].step_a: is {}; in a step rock does not move and temperatures of "
+                       "sediment go evenly from one to the next, so that their maturity is coarse; "
+                       "up to {} is usual",
+                       stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
 }
 
 /// Points in the rock: those of lis1 at both accuracies, and in between by the spacing.
@@ -131,6 +232,51 @@ double points(const Scene& scene) {
 double memory(const Scene& scene) {
     constexpr double of_point = 5e3; // bytes: cells, factors of the matrix
     return of_point * (points(scene) + static_cast<double>(estimated_discs(scene)));
+}
+
+/// Subsidence of a wide section since its wall last moved, m.
+double subsidence_after_rift(const Scene& scene, const ModelParts& parts, double fill) {
+    const thermal::HeatSetting s = setting(scene, parts);
+    const dem::Calendar calendar = make_calendar(scene);
+    const dem::Motion motion = make_motion(scene);
+    thermal::RiftColumn column(*scene.find<P>(),
+                               {scene.hanging_wall.thickness, s.crust_density, s.mantle_density});
+    constexpr int steps = 500;
+    double before = 0.0, at_rest = 0.0;
+    for (int k = 1; k <= steps; ++k) {
+        const dem::Travel from(scene.extension.distance * (k - 1) / steps),
+            to(scene.extension.distance * k / steps);
+        const double now = s.shear->share * motion.position(to).m;
+        const auto factor = [&](double width) { return (width + now) / (width + before); };
+        column.stretch(factor(s.shear->crust_width), factor(s.shear->mantle_width));
+        column.rest(calendar.years(from, to) * dem::seconds_per_year);
+        if (now != before)
+            at_rest = column.mass_lost();
+        before = now;
+    }
+    return (at_rest - column.mass_lost()) / (bending_base(scene)->floats_on() - fill);
+}
+
+/// What temperatures do to the base.
+std::string explain_load(const Scene& scene) {
+    const ModelParts parts = make_parts(scene);
+    const thermal::HeatSetting s = setting(scene, parts);
+    if (!bending_base(scene))
+        return "on this base nothing subsides by cooling";
+    if (!s.shear)
+        return "rock below the detachment rests: no heat rises with it; cooling by what comes and "
+               "goes above loads the base";
+    constexpr double water = 1030.0, sediment = 2300.0;
+    const double extension =
+        s.shear->share * make_motion(scene).position(dem::Travel(scene.extension.distance)).m;
+    const double filled = subsidence_after_rift(scene, parts, sediment);
+    return fmt::format(
+        "crust and mantle below the detachment have stretched by {:.2f} and {:.2f} at the end; "
+        "cooling since\n  the wall last moved then has lowered a wide basin by {:.0f} m under "
+        "water ({:g} kg/m3), {:.0f} m under sediment\n  ({:g} kg/m3): {:.1f} layers of discs",
+        1.0 + extension / s.shear->crust_width, 1.0 + extension / s.shear->mantle_width,
+        subsidence_after_rift(scene, parts, water), water, filled, sediment,
+        filled / (2.0 * scene.hanging_wall.mean_radius));
 }
 
 /// Temperature of the steady column where the detachment is deepest.
@@ -150,10 +296,7 @@ std::string explain(const Scene& scene, EffectList) {
         "  every {:g} a; about {:.0f} points in rock without discs, {:.0f} MB\n"
         "  {}\n",
         1e3 * geotherm.surface_heat_flow(), geotherm.at(depth), depth / 1e3, geotherm.at(p.crust),
-        depth_of(300.0), interval, points(scene), memory(scene) / 1e6,
-        make_parts(scene).stretched_crust
-            ? "crust and mantle below the detachment stretch in pure shear"
-            : "rock below the detachment rests: no heat rises with it");
+        depth_of(300.0), interval, points(scene), memory(scene) / 1e6, explain_load(scene));
 }
 
 } // namespace
@@ -169,7 +312,10 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters = parameters(),
         .check = check,
+        .warning = warning,
+        .contribute = contribute,
         .add_events = add_events,
+        .load_bending_base = load_bending_base,
         .explain = explain,
         .price =
             [](const Scene& scene, const Workload& work) {

@@ -2,6 +2,7 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/support/words/spelling.hpp"
 
@@ -15,24 +16,30 @@ namespace {
 
 using P = coupling::LowerCrustThinningParameters;
 
+P stretched(const Scene& scene, const ModelParts& parts) {
+    P p = *scene.find<P>();
+    p.share = parts.stretch_share;
+    return p;
+}
+
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
     const auto& base = *bending_base(scene);
     const double contrast = (base.mantle_density - base.crust_density) * parts.gravity; // Pa/m
-    return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast,
+    return coupling::lower_crust_thinning_load(stretched(scene, parts), contrast,
                                                greatest_extension(scene), least_extension(scene),
                                                scene.extension.rate);
 }
 
 /// Its ends at the greatest extension, x in m.
 std::pair<double, double> reach(const Scene& scene) {
-    const P& p = *scene.find<P>();
+    const P p = stretched(scene, make_parts(scene));
     const double left = p.centre - 0.5 * p.width;
-    return {left, left + p.width + greatest_extension(scene)};
+    return {left, left + p.width + p.share * greatest_extension(scene)};
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
-    const P& p = *scene.find<P>();
-    if (const double shortening = -least_extension(scene); shortening >= p.width)
+    const P p = stretched(scene, make_parts(scene));
+    if (const double shortening = -p.share * least_extension(scene); shortening >= p.width)
         refuse("lower_crust_thinning.width_m",
                fmt::format("is {}, but [[stage]] shortens it by {}; widen it", text(p.width),
                            text(shortening)));
@@ -59,11 +66,11 @@ std::string warning(const Scene& scene) {
 }
 
 std::string explain(const Scene& scene, EffectList) {
-    const P& p = *scene.find<P>();
+    const P p = stretched(scene, make_parts(scene));
     const auto& base = *bending_base(scene);
     const double thinner = coupling::lower_crust_thinning(p, greatest_extension(scene));
     const double contrast = base.mantle_density - base.crust_density; // at most the springs'
-    const double springs = base.mantle_density - base.infill_density;
+    const double springs = base.floats_on() - base.infill_density;
     return fmt::format(
         "    lower crust: {:g} km over {:g} km thins by {:.0f} m at most; the mantle in its "
         "place\n    lowers a wide area by {:.0f} m\n",

@@ -150,7 +150,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
                              dem::Schedule{p.interval, calendar}, !p.hydrostatic && p.pushes));
 }
 
-coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts) {
+coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts,
+                                         std::span<const std::unique_ptr<dem::Event>>) {
     const P& p = *scene.find<P>();
     return coupling::water_load({.level = parts.water->level,
                                  .density = p.density,

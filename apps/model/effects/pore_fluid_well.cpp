@@ -1,5 +1,6 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 
+#include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
 #include "dem/columns.hpp"
 #include "dem/contacts/grain_columns.hpp"
@@ -55,13 +56,8 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
 }
 
 double depocentre(const std::vector<WetDisc>& wet) {
-    double deepest = -1.0, x = 0.0;
-    for (const WetDisc& disc : wet)
-        if (disc.depth > deepest) {
-            deepest = disc.depth;
-            x = disc.x;
-        }
-    return x;
+    const WetDisc* const deepest = deepest_of(wet);
+    return deepest ? deepest->x : 0.0;
 }
 
 namespace {
@@ -164,52 +160,12 @@ constexpr Measure<WellPoint> of_point[] = {
     {"age_a", "a", "age", "time since the sediment was laid down", taken<&WellPoint::age>},
 };
 
-std::vector<NamedNumbers> numbers_at(const Observation& now, double x) {
-    std::vector<NamedNumbers> rows;
-    for (const WellPoint& point : well_at(now, x)) {
-        NamedNumbers& numbers = rows.emplace_back();
-        for (const auto& measure : of_point)
-            if (const auto value = measure.value(point))
-                numbers.emplace_back(measure.name, *value);
-    }
-    return rows;
-}
-
-/// The depocentre, and from there toward the moving wall the first place where the sediment's
-/// floor is half as deep.
 std::vector<WellPlace> places(const Observation& now) {
-    const std::vector<WetDisc> wet = wet_discs(now);
-    if (wet.empty())
-        return {};
-    std::vector<WellPlace> places{{"depocentre", depocentre(wet)}};
-    const auto floor_about = [&](double x) {
-        double floor = 0.0;
-        for (const WetDisc& disc : wet)
-            if (std::abs(disc.x - x) <= 0.5 * half_well)
-                floor = std::max(floor, disc.depth);
-        return floor;
-    };
-    const double deepest = floor_about(places[0].x);
-    for (double x = places[0].x; x < now.right_end(); x += 0.5 * half_well)
-        if (const double floor = floor_about(x); floor > 0.0 && floor <= 0.5 * deepest) {
-            places.push_back({"flank", x});
-            break;
-        }
-    return places;
+    return places_of_wells(wet_discs(now), now.right_end());
 }
 
 } // namespace
 
-MeasuredWell pore_well() {
-    MeasuredWell well{{}, places, numbers_at, [](const Observation& now, double x) {
-                          std::vector<dem::Point> points;
-                          for (const WellPoint& point : well_at(now, x))
-                              points.push_back({point.x, point.y});
-                          return points;
-                      }};
-    for (const auto& measure : of_point)
-        well.parts.push_back(measure.quantity());
-    return well;
-}
+MeasuredWell pore_well() { return measured_well<WellPoint, of_point, well_at>(places); }
 
 } // namespace listric::effects

@@ -137,6 +137,7 @@ struct ModelParts {
     std::optional<WaterFacts>
         water; ///< none: pores are empty, or what fills them weighs on no disc
     std::optional<StretchedCrust> stretched_crust; ///< none: what is below the detachment rests
+    double stretch_share = 1.0; ///< of the extension by which crust and mantle stretch there
     /// Sediment younger than this is too loose for a fault: it creeps all over, m of travel.
     double youngest_sediment = 2.0e3;
     /// Diameter of the circle that faults are looked for with, mean disc diameters; none: they are
@@ -286,14 +287,19 @@ struct Effect {
     /// It needs a base that bends.
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
     /// The same of an effect that does not need one, where there is one.
-    coupling::FootwallLoad (*load_bending_base)(const Scene& scene,
-                                                const ModelParts& parts) = nullptr;
+    /// @param events  of the run; none where only its states are looked at
+    coupling::FootwallLoad (*load_bending_base)(
+        const Scene& scene, const ModelParts& parts,
+        std::span<const std::unique_ptr<dem::Event>> events) = nullptr;
     /// The base, of the effect that bends it.
     const BendingBase& (*bending_base)(const std::any& parameters) = nullptr;
     /// Moves the base's nodes; of a scene's effects at most one does.
-    /// @param events  to which those of the loads on the base are appended, for the run to apply
+    /// @param events  of the run; none where only its states are looked at
+    /// @param loads   to which the events of the loads on the base are appended, for the run to
+    ///                apply
     std::unique_ptr<BaseDriver> (*drive_base)(const Scene& scene, const ModelParts& parts,
-                                              std::vector<std::unique_ptr<dem::Event>>& events) =
+                                              std::span<const std::unique_ptr<dem::Event>> events,
+                                              std::vector<std::unique_ptr<dem::Event>>& loads) =
         nullptr;
 
     /// Lines for `explain`. @param list  all effects that there are

@@ -334,7 +334,7 @@ TEST_F(ElasticBaseRun, RefusesAStateOfAnotherBase) {
     const Scene s = load();
     const ModelParts parts = make_parts(s);
     std::vector<std::unique_ptr<Event>> events;
-    const auto driver = make_base_driver(s, parts, events);
+    const auto driver = make_base_driver(s, parts, {}, events);
     const auto* const base = dynamic_cast<ElasticBase*>(&driver->response());
     ASSERT_TRUE(base);
     State state;

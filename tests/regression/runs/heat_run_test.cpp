@@ -95,6 +95,27 @@ TEST_F(HeatRun, GoesOnInAPause) {
                 coarse["detachment_temperature_c"].get<double>(), 0.5); // first order in time
 }
 
+/// Between steps, in a step, where it ends, and where the pause does.
+TEST_F(HeatRun, HasTheSameBitsHoweverAPauseIsCut) {
+    const std::vector<std::string> stages{
+        "extension.distance_m=500",
+        "stage=[{distance_m=100.0}, {pause_a=30e6, step_a=10e6, settle_m=100.0}, "
+        "{distance_m=100.0}]"};
+    const auto once = run_with("once", stages);
+    for (const int threads : {2, 3})
+        EXPECT_EQ(run_with("threads", stages, threads)["state_hash"], once["state_hash"])
+            << threads;
+    RunOptions o = options("parts");
+    for (const double until : {100.0, 101.0, 150.0, 200.0, 299.0, 375.0, 400.0}) {
+        o.until = until;
+        o.threads = 1 + static_cast<int>(until) % 3;
+        run_scene(with(stages), o);
+        o.resume = true;
+    }
+    o.until = {};
+    EXPECT_EQ(run(with(stages), o)["state_hash"], once["state_hash"]);
+}
+
 TEST_F(HeatRun, WellsAreExported) {
     run_with("once", {});
     export_run({.kind = "well", .output = folder / "once"});
@@ -113,7 +134,11 @@ TEST_F(HeatRun, RefusesWhatCannotBe) {
     EXPECT_THAT(refusal({"heat.surface_temperature_c=100", "heat.base_temperature_c=100"}),
                 HasSubstr("above surface_temperature_c, 100"));
     EXPECT_THAT(refusal({"heat.heat_production_w_per_m3=1e-5"}),
-                HasSubstr("heat.heat_production_w_per_m3: is 1e-05"));
+                AllOf(HasSubstr("heat.base_temperature_c: is 1333"),
+                      HasSubstr("heat_production_w_per_m3 = 1e-05")));
+    // A lithosphere's base that is colder than the crust's
+    EXPECT_THAT(refusal({"heat.base_temperature_c=150"}),
+                AllOf(HasSubstr("heat.base_temperature_c: is 150"), HasSubstr("raise it")));
     EXPECT_THAT(refusal({"heat.mantle_width_m=1e5"}), HasSubstr("no lower crust stretches"));
     EXPECT_THAT(refusal({"heat.conductivity_w_per_m_k=0"}),
                 HasSubstr("heat.conductivity_w_per_m_k"));

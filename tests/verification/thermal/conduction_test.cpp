@@ -208,6 +208,124 @@ TEST(Conduction, HeatFlowUnderSediment) {
     EXPECT_NEAR(flow_under_sediment(0.1e-3, 10e6, 50.0), 0.9380, 0.005 * 0.9380);
 }
 
+/// The same with discs of a settled packing that come one by one, as the ground rises over them:
+/// mean over the time in which it rises by a diameter.
+double flow_under_discs(double rate, double time, double radius) {
+    constexpr double depth = 60e3, kappa = 1e-6, rho_c = 2.5e6, gradient = 0.024, width = 4e3;
+    constexpr double step = 25e3; // a
+    const double most = rate * time;
+    const State state = settled(packing_request(width, most + 4.0 * radius, radius));
+    const ConstDiscColumns d = disc_columns(state);
+    const double floor = -most - 4.0 * radius,
+                 of_disc = width * -floor / static_cast<double>(d.x.size());
+    Sites sites;
+    std::vector<double> temperature, area;
+    for (double top = 0.0, h = 2.0 * radius; top < depth; top += h, h = std::min(1.05 * h, 4e3)) {
+        const double columns = std::max(1.0, std::round(width / h));
+        for (double column = 0.0; column < columns; ++column) {
+            sites.add({(column + 0.5) * width / columns, floor - top - 0.5 * h}, radius, 2.5 * h);
+            temperature.push_back(gradient * (top + 0.5 * h));
+            area.push_back(h * width / columns);
+        }
+    }
+    const double bottom = temperature.back() / gradient + 0.5 * area.back() / width;
+    std::vector<bool> is_there(d.x.size(), false);
+    const auto steps = std::lround(time / step), last = std::lround(2.0 * radius / rate / step);
+    double flow = 0.0;
+    for (long k = 1; k <= steps; ++k) {
+        const double ground = floor + rate * step * static_cast<double>(k);
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            if (!is_there[i] && d.y[i] < ground - 0.5 * radius) {
+                is_there[i] = true;
+                sites.add({d.x[i], d.y[i]}, d.radius[i], 5.0 * radius);
+                temperature.push_back(0.0);
+                area.push_back(of_disc);
+            }
+        Sites below_ground = sites;
+        for (double& y : below_ground.y)
+            y -= ground;
+        Section section(below_ground, width, bottom + ground - floor, kappa * rho_c, rho_c);
+        std::ranges::transform(area, section.capacity.begin(), [](double a) { return rho_c * a; });
+        section.temperature = temperature;
+        section.kept = {0.0, gradient * bottom};
+        const auto flows = section.step(section.network(), step);
+        if (k > steps - last)
+            flow += flows.through_ground / static_cast<double>(last);
+        temperature = section.temperature;
+    }
+    return flow / (step * years * width * kappa * rho_c * gradient);
+}
+
+// 1 % is too much at 1 Ma, 0.4 and 0.3 % later: ground that is smoother than discs.
+TEST(Conduction, HeatFlowUnderDiscs) {
+    EXPECT_NEAR(flow_under_discs(1e-3, 1e6, 93.1) / 0.8144, 1.0, 0.03);
+    EXPECT_NEAR(flow_under_discs(1e-3, 5e6, 93.1) / 0.6242, 1.0, 0.03);
+    EXPECT_NEAR(flow_under_discs(0.1e-3, 10e6, 93.1) / 0.9380, 1.0, 0.03);
+}
+
+/// Heat flow over that of rock alone through a cover of a tenth of its conductivity.
+double flow_under_cover(double thickness) {
+    constexpr double depth = 10e3, width = 200.0;
+    Sites sites;
+    if (thickness > 0.0)
+        sites.add({0.5 * width, -0.5 * thickness}, 0.5 * thickness, width);
+    const std::size_t of_cover = sites.count();
+    for (double top = thickness; top < depth + thickness; top += 100.0)
+        sites.add({0.5 * width, -top - 50.0}, 50.0, 250.0);
+    Section section(sites, width, depth + thickness, 2.5, 2.7e6);
+    std::fill_n(section.conductivity.begin(), of_cover, 0.25);
+    section.kept = {0.0, 300.0};
+    return section.step(section.network(), long_ago).through_ground / (long_ago * years * width) /
+           (2.5 * 300.0 / depth);
+}
+
+// Resistances in a row; contacts are where the power of both cells is.
+TEST(Conduction, AFilmAtTheGround) {
+    for (const double thickness : {20.0, 1.0})
+        EXPECT_NEAR(flow_under_cover(thickness), 1.0 / (1.0 + 10.0 * thickness / 10e3), 1e-5);
+}
+
+/// The hottest 14 km of a column go at once, or in a million years: no heat comes in through the
+/// ground, and nothing gets hotter than it was.
+TEST(Conduction, ErosionDownTo300Degrees) {
+    constexpr double depth = 125e3, gradient = 0.021, eroded = 14.2e3;
+    for (const int parts : {1, 20}) {
+        std::vector<double> y, height, temperature;
+        for (double top = 0.0, h = 200.0; top < depth; top += h, h = std::min(1.03 * h, 4e3)) {
+            y.push_back(-top - 0.5 * h);
+            height.push_back(h);
+            temperature.push_back(gradient * (top + 0.5 * h));
+        }
+        double bottom = -y.back() + 0.5 * height.back(), least_flow = 1e300;
+        const double kept = gradient * bottom;
+        for (int step = 0; step < 60; ++step) {
+            const double way = step < parts ? eroded / parts : 0.0;
+            bottom -= way;
+            Sites sites;
+            std::vector<double> warm;
+            for (std::size_t i = 0; i < y.size(); ++i) {
+                y[i] += way;
+                if (y[i] >= 0.0)
+                    continue;
+                sites.add({500.0, y[i]}, 0.25 * height[i], 2.5 * height[i]);
+                warm.push_back(temperature[i]);
+            }
+            y = sites.y;
+            height.erase(height.begin(), height.end() - static_cast<std::ptrdiff_t>(y.size()));
+            Section section(sites, 1e3, bottom, 2.5, 2.7e6);
+            section.temperature = warm;
+            section.kept = {0.0, kept};
+            least_flow = std::min(least_flow, section.step(section.network(), 50e3).through_ground);
+            temperature = section.temperature;
+            for (std::size_t i = 0; i < warm.size(); ++i) {
+                EXPECT_LE(temperature[i], warm[i] + 1e-9);
+                EXPECT_GE(temperature[i], 0.0);
+            }
+        }
+        EXPECT_GT(least_flow, 0.0);
+    }
+}
+
 /// Two blocks, the right of which sinks along a vertical fault, filled with sediment of the same
 /// rock: a section of cells that move, and temperatures of a grid whose rows move by one.
 constexpr double fault_x = 5e3, fault_width = 10e3, fault_depth = 24e3, fault_gradient = 0.024;

@@ -1,7 +1,9 @@
 #include "apps/model/effects/heat/heat_measures.hpp"
 
 #include "apps/model/measure_names.hpp"
+#include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
+#include "coupling/thermal_load.hpp"
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
 #include "thermal/heat.hpp"
@@ -53,8 +55,16 @@ std::vector<WarmDisc> warm_discs(const Observation& now) {
 }
 
 V depocentre(const std::vector<WarmDisc>& warm) {
-    const auto deepest = std::ranges::max_element(warm, {}, &WarmDisc::depth);
-    return deepest == warm.end() ? V() : V(deepest->x);
+    const WarmDisc* const deepest = deepest_of(warm);
+    return deepest ? V(deepest->x) : V();
+}
+
+V subsidence_by_cooling(const Observation& now) {
+    const dem::Motion& motion = now.parts.base.motion;
+    if (!coupling::post_rift_subsidence(now.state, motion, 0.0))
+        return std::nullopt;
+    const V x = depocentre(warm_discs(now));
+    return x ? coupling::post_rift_subsidence(now.state, motion, *x) : std::nan("");
 }
 
 /// Depth at which the column at x has come to a temperature, of discs and points within 1 km.
@@ -239,39 +249,8 @@ constexpr Measure<WarmDisc> of_point[] = {
     {"age_a", "a", "age", "time since the sediment was laid down", taken<&WarmDisc::age>},
 };
 
-std::vector<NamedNumbers> numbers_at(const Observation& now, double x) {
-    std::vector<NamedNumbers> rows;
-    for (const WarmDisc& point : well_at(now, x)) {
-        NamedNumbers& numbers = rows.emplace_back();
-        for (const auto& measure : of_point)
-            if (const auto value = measure.value(point))
-                numbers.emplace_back(measure.name, *value);
-    }
-    return rows;
-}
-
-/// The depocentre, and from there toward the moving wall the first place where sediment is half as
-/// deep.
 std::vector<WellPlace> places(const Observation& now) {
-    const std::vector<WarmDisc> warm = warm_discs(now);
-    const V x = depocentre(warm);
-    if (!x)
-        return {};
-    const auto floor_about = [&](double place) {
-        double floor = 0.0;
-        for (const WarmDisc& disc : warm)
-            if (std::abs(disc.x - place) <= 500.0)
-                floor = std::max(floor, disc.depth);
-        return floor;
-    };
-    std::vector<WellPlace> found{{"depocentre", *x}};
-    const double deepest = floor_about(*x);
-    for (double place = *x; place < now.right_end(); place += 500.0)
-        if (const double floor = floor_about(place); floor > 0.0 && floor <= 0.5 * deepest) {
-            found.push_back({"flank", place});
-            break;
-        }
-    return found;
+    return places_of_wells(warm_discs(now), now.right_end());
 }
 
 /// Isotherms to and fro, so that they are one line: its turns are at the section's ends.
@@ -327,6 +306,13 @@ std::vector<Measure<Observation>> heat_measures() {
          "greatest vitrinite reflectance %Ro of sediment", of_discs<greatest_reflectance>},
         {"oil_window_area_m2", "m2", "sediment in the oil window",
          "area of sediment with a vitrinite reflectance of 0.6 to 1.3 %", of_discs<oil_window>},
+        {coupling::thermal_load_name, "N/m", "weight of cold rock",
+         "weight that rock of the section has by its temperatures, less that at the start: below 0 "
+         "where it is hotter, and the base that bends is lifted"},
+        {"post_rift_subsidence_m", "m", "subsidence since the wall stopped",
+         "by how much a base that bends has sunk below the depocentre since the wall last moved; 0 "
+         "while it moves",
+         subsidence_by_cooling},
         {heat_balance_error, "1", "error of the heat's balance",
          "heat that came less heat that went and is there, over the sum of both. Round-off",
          balance_error, largest, "below 1e-10"},
@@ -351,16 +337,6 @@ std::vector<FigureLayer> heat_layers() {
              2.0}};
 }
 
-MeasuredWell heat_well() {
-    MeasuredWell well{{}, places, numbers_at, [](const Observation& now, double x) {
-                          std::vector<dem::Point> points;
-                          for (const WarmDisc& point : well_at(now, x))
-                              points.push_back({point.x, point.y});
-                          return points;
-                      }};
-    for (const auto& measure : of_point)
-        well.parts.push_back(measure.quantity());
-    return well;
-}
+MeasuredWell heat_well() { return measured_well<WarmDisc, of_point, well_at>(places); }
 
 } // namespace listric::effects::heat
