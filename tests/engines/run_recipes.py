@@ -170,8 +170,9 @@ def prepare(folder: pathlib.Path, program: str) -> None:
 
 
 def sweep(folder: pathlib.Path, *options: str) -> None:
+    call = ("./listric", "sweep", "friction.toml", *options)
     with open(folder / "sweep.log", "w") as log:
-        subprocess.run(("./listric", "sweep", "friction.toml", *options), cwd=folder, stdout=log, stderr=log, check=True)
+        subprocess.run(call, cwd=folder, stdout=log, stderr=log, check=True)
 
 
 def main(program: str, *asked: str) -> int:

@@ -102,8 +102,8 @@ def draw(scenes: list[dict]):
         draw_chances(figure.add_axes((0.75 / WIDTH, bottom / up, wide, (CHANCES - 0.25) / up)), scene)
         draw_section(figure.add_axes((0.75 / WIDTH, (bottom + CHANCES - 0.1) / up, wide, high / up)), scene)
     left_out = len(scenes) - len(shown)
-    figure.text(0.1 / WIDTH, 0.12 / up, f"{LINES}\ntops: mean and standard deviation; bars: a fault's upper end in this km, "
-                "line: exact 90 % interval"
+    figure.text(0.1 / WIDTH, 0.12 / up, f"{LINES}\ntops: mean and standard deviation; bars: a fault's upper end in "
+                "this km, line: exact 90 % interval"
                 + (f"; {left_out} more scenes are in the tables" if left_out else ""), fontsize=7, color=FAINT)
     return figure
 

@@ -1,5 +1,6 @@
 #include "apps/measures/paper/block_edges.hpp"
 
+#include "apps/measures/basin/kinematics.hpp"
 #include "apps/measures/paper/blocks.hpp"
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/measures/split.hpp"
@@ -134,15 +135,14 @@ struct Block {
     double lowest = 0.0;    ///< height to which the edge is the fault's, m
 };
 
-/// The outer block and the head block, which is none without tilt.
-std::array<Block, 2> blocks_of(const RunSoFar& run, const Basement& rock,
-                               std::optional<double> rollover_tilt) {
+/// The outer block and the head block, which may be none.
+std::array<Block, 2> blocks_of(const RunSoFar& run, const Basement& rock, bool has_head) {
     const double flat = run.detachment.back().end.y;
     Block outer{"antithetic", BlockSide::right, {}, (1.0 - around_bend) * flat};
     Block head{"synthetic", BlockSide::left, std::vector<char>(rock.rows.size(), 0), 0.5 * flat};
     for (const Point p : rock.start)
         outer.core.push_back(p.x > run.setting.length - core_width);
-    if (rollover_tilt)
+    if (has_head)
         for (const std::size_t row : head_block(run.now, run.detachment, run.setting.thickness))
             head.core[static_cast<std::size_t>(std::ranges::lower_bound(rock.rows, row) -
                                                rock.rows.begin())] = 1;
@@ -345,12 +345,15 @@ double edge_at(const Polyline& edge, double y) {
     return x;
 }
 
-std::vector<Polyline> trace_block_edges(const RunSoFar& run, std::optional<double> rollover_tilt) {
+std::vector<Polyline> trace_block_edges(const RunSoFar& run) {
     if (!run.setting.has_detachment || !(run.extension.m > 0.0))
         return {};
     const Basement rock = basement_of(run);
+    const bool has_head =
+        head_block_turns(run.detachment, run.extension.m) &&
+        head_block_tilt(run.now, run.detachment, run.setting.thickness).has_value();
     std::vector<Polyline> edges;
-    for (const Block& block : blocks_of(run, rock, rollover_tilt))
+    for (const Block& block : blocks_of(run, rock, has_head))
         if (auto edge = find_edge(block, rock.start, rock.now, run.extension, run.diameter))
             edges.push_back(std::move(edge->points));
     return edges;
@@ -362,7 +365,7 @@ NamedNumbers measure_block_edges(const RunSoFar& run, std::optional<double> roll
         return {};
     const Basement rock = basement_of(run);
     const std::vector<Point> before = places_then(run, rock, run.past.back().places);
-    const auto [outer, head] = blocks_of(run, rock, rollover_tilt);
+    const auto [outer, head] = blocks_of(run, rock, rollover_tilt.has_value());
     NamedNumbers numbers;
     for (const Block* block : {&outer, &head}) {
         const auto whole = find_edge(*block, rock.start, rock.now, run.extension, run.diameter);

@@ -40,8 +40,7 @@ double edge_at(const Polyline& edge, double y);
 
 /// Edges since the start: of the outer block, then of the head block; what is no block has none.
 /// Needs no earlier moment.
-/// @param rollover_tilt  of the head block, degrees; none: it is no block any more
-std::vector<Polyline> trace_block_edges(const RunSoFar& run, std::optional<double> rollover_tilt);
+std::vector<Polyline> trace_block_edges(const RunSoFar& run);
 
 /// Dip, bow, foot, shift and turn of the edges of the outer block (at the antithetic fault) and of
 /// the head block (at the synthetic one).

@@ -143,10 +143,7 @@ void read_run(const fs::path& folder, std::vector<Ensemble>& ensembles) {
         if (horizon.stratum >= 0)
             end.tops[horizon.stratum] = heights(horizon.top, columns);
     add_results(end, read_object(folder / "summary.json"));
-    const auto tilt = end.measures.find("rollover_tilt_deg");
-    end.edges = measures::trace_block_edges({setting, run.parts.base, moment.state, {}},
-                                            tilt != end.measures.end() ? std::optional(tilt->second)
-                                                                       : std::nullopt);
+    end.edges = measures::trace_block_edges({setting, run.parts.base, moment.state, {}});
     found->runs.push_back(std::move(end));
 }
 
