@@ -2,6 +2,7 @@
 
 #include "dem/base/ground_level.hpp"
 #include "dem/base/place.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 
 #include <algorithm>
@@ -88,7 +89,10 @@ double uplift_at(const State& state, double x) {
         ++k;
     const double x0 = nodes.x[k - 1] + nodes.ux[k - 1], x1 = nodes.x[k] + nodes.ux[k];
     const double share = std::clamp((x - x0) / (x1 - x0), 0.0, 1.0);
-    return nodes.uy[k - 1] + share * (nodes.uy[k] - nodes.uy[k - 1]);
+    constexpr double bends_in = 50e3; // m
+    const double beyond = std::max({0.0, x0 - x, x - x1});
+    return (nodes.uy[k - 1] + share * (nodes.uy[k] - nodes.uy[k - 1])) *
+           (beyond > 0.0 ? exponential(-beyond / bends_in) : 1.0);
 }
 
 GroundLine ground_line(const State& state, const RigidBase& base, const GroundBeside& beside,
@@ -97,15 +101,17 @@ GroundLine ground_line(const State& state, const RigidBase& base, const GroundBe
     const double wall = beside.wall_x + wall_way(base, state.clock.extension.m);
     const std::vector<Point> trace = base_points(state, base, step);
     const double left = trace.front().x;
-    const double flank = beside.left + uplift_at(state, left);
-    std::vector<Point> points{{left, flank}};
-    if (beside.cover) {
-        constexpr double farthest = 150e3, growth = 1.25; // m; of the distance
-        points.front().y += beside.cover(left);
-        for (double away = step; away < farthest; away *= growth)
-            points.push_back({left - away, flank + beside.cover(left - away)});
-        std::ranges::reverse(points);
-    }
+    const auto beside_at = [&](double x) {
+        return x > left
+                   ? beside.right + uplift_at(state, x)
+                   : beside.left + uplift_at(state, x) + (beside.cover ? beside.cover(x) : 0.0);
+    };
+    // Wider and wider apart, on both sides.
+    constexpr double farthest = 300e3, growth = 1.25; // m; of the distance
+    std::vector<Point> points{{left, beside_at(left)}};
+    for (double away = step; away < farthest; away *= growth)
+        points.push_back({left - away, beside_at(left - away)});
+    std::ranges::reverse(points);
     const GroundLevel level(state, least_age);
     std::size_t next = 0;
     const auto base_height = [&](double x) {
@@ -123,7 +129,10 @@ GroundLine ground_line(const State& state, const RigidBase& base, const GroundBe
     for (double x = left + 0.5 * step; x < wall; x += step)
         if (x > points.back().x)
             points.push_back({x, std::max(level.height(x), base_height(x))});
-    points.push_back({std::max(wall, points.back().x), beside.right + uplift_at(state, wall)});
+    points.push_back({std::max(wall, points.back().x), beside_at(wall)});
+    const double right = points.back().x;
+    for (double away = step; away < farthest; away *= growth)
+        points.push_back({right + away, beside_at(right + away)});
     return GroundLine(std::move(points));
 }
 

@@ -171,7 +171,21 @@ void check_stretching(const Scene& scene, const Refuse& refuse) {
                            text(*p.mantle_width), text(shortening)));
 }
 
-std::string warning(const Scene& scene) {
+std::string warning_of_steps(const Scene& scene) {
+    constexpr double longest = 5e6; // a
+    const auto pauses = make_calendar(scene).pauses();
+    if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
+        return "";
+    const auto stage = std::ranges::find_if(*scene.find<Stages>(), [](const StageParameters& one) {
+        return one.step.value_or(0.0) > longest;
+    });
+    return fmt::format("stage[{}].step_a: is {}; in a step rock does not move and temperatures of "
+                       "sediment go evenly from one to the next, so that their maturity is coarse; "
+                       "up to {} is usual",
+                       stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
+}
+
+std::string warning_of_reach(const Scene& scene) {
     const BendingBase* const base = bending_base(scene);
     const ModelParts parts = make_parts(scene);
     if (!base || !parts.stretched_crust)
@@ -183,6 +197,11 @@ std::string warning(const Scene& scene) {
                              "nothing there",
                              text(left), text(right), text(base->left), text(base->right))
                : std::string();
+}
+
+std::string warning(const Scene& scene) {
+    const std::string steps = warning_of_steps(scene), reach = warning_of_reach(scene);
+    return steps.empty() || reach.empty() ? steps + reach : steps + "; " + reach;
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
@@ -206,20 +225,6 @@ void check(const Scene& scene, const Refuse& refuse) {
                            "or lower that or crust_m",
                            text(p.base_temperature), text(p.heat_production)));
     check_stretching(scene, refuse);
-}
-
-std::string warning(const Scene& scene) {
-    constexpr double longest = 5e6; // a
-    const auto pauses = make_calendar(scene).pauses();
-    if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
-        return "";
-    const auto stage = std::ranges::find_if(*scene.find<Stages>(), [](const StageParameters& one) {
-        return one.step.value_or(0.0) > longest;
-    });
-    return fmt::format("stage[{}].step_a: is {}; in a step rock does not move and temperatures of "
-                       "sediment go evenly from one to the next, so that their maturity is coarse; "
-                       "up to {} is usual",
-                       stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
 }
 
 /// Points in the rock: those of lis1 at both accuracies, and in between by the spacing.
