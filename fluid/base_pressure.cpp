@@ -43,8 +43,39 @@ void add_base_pressure(State& state) {
         state.base_nodes.add(column);
 }
 
+double lifted_share(const PoreCells& cells, std::span<const double> volume,
+                    std::span<const double> excess_pressure) {
+    const std::vector<Point> gradients = pressure_gradients(cells, excess_pressure);
+    Point of_mud, of_cells;
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const double area = cells.faceted.cells[k].area;
+        of_mud.x += volume[k] * gradients[k].x;
+        of_mud.y += volume[k] * gradients[k].y;
+        of_cells.x += area * gradients[k].x;
+        of_cells.y += area * gradients[k].y;
+    }
+    const double square = of_cells.x * of_cells.x + of_cells.y * of_cells.y;
+    return square > 0.0 ? (of_mud.x * of_cells.x + of_mud.y * of_cells.y) / square : 1.0;
+}
+
+void lift_what_comes(const PoreCells& cells, std::span<const double> excess_pressure, double share,
+                     std::vector<Point>& force) {
+    for (std::size_t k = 0; k < cells.count(); ++k)
+        for (const PowerFacet& facet : cells.faceted.of(k)) {
+            if (facet.neighbour != facet_on_lid)
+                continue;
+            // Pressure is linear up to the ground, as pressure_gradients() has it.
+            const double pressure_over_distance =
+                share * excess_pressure[k] * facet.length / cells.ground_distances[k];
+            Point& lift = force[static_cast<std::size_t>(cells.rows[k])];
+            lift.x -= pressure_over_distance * facet.arm.x;
+            lift.y += pressure_over_distance * (cells.ground_distances[k] - facet.arm.y);
+        }
+}
+
 double press_base(State& state, const RigidBase& base, const PoreCells& cells,
-                  std::span<const double> excess_pressure, double fill, std::vector<Point>& force) {
+                  std::span<const double> excess_pressure, double share,
+                  std::vector<Point>& force) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const BasePlace place = base_place(state);
     const auto node_x = state.base_nodes.get(dem::columns::excess_x);
@@ -70,22 +101,22 @@ double press_base(State& state, const RigidBase& base, const PoreCells& cells,
                 continue;
             const auto i = static_cast<std::size_t>(cells.rows[k]);
             const Pressed on = pressed_by(base, place, {d.x[i], d.y[i]}, facet.distance);
-            const double share = fill * excess_pressure[k] * facet.length;
-            sum.x -= share * on.normal.x;
-            sum.y -= share * on.normal.y;
+            const double counts = share * excess_pressure[k] * facet.length;
+            sum.x -= counts * on.normal.x;
+            sum.y -= counts * on.normal.y;
             if (!on.on_nodes)
                 continue;
             size += all;
             for (std::size_t m = 0; m < 3 && on.on_nodes->node + m < node_x.size(); ++m) {
                 const std::size_t node = on.on_nodes->node + m;
-                node_x[node] -= on.on_nodes->weight[m] * share * on.normal.x;
-                node_y[node] -= on.on_nodes->weight[m] * share * on.normal.y;
+                node_x[node] -= on.on_nodes->weight[m] * counts * on.normal.x;
+                node_y[node] -= on.on_nodes->weight[m] * counts * on.normal.y;
                 node_size[node] += on.on_nodes->weight[m] * all;
             }
         }
     for (std::size_t i = 0; i < force.size(); ++i) {
         if (cells.cell_of[i] < 0)
-            force[i] = {fill * force[i].x, fill * force[i].y};
+            force[i] = {share * force[i].x, share * force[i].y};
         sum.x += force[i].x;
         sum.y += force[i].y;
     }

@@ -1,5 +1,7 @@
 #include "fluid/pore_cells.hpp"
 
+#include "dem/columns.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -51,11 +53,19 @@ PoreCells pore_cells(const State& state, const RigidBase& base, const WetSedimen
     const ConstDiscColumns d = disc_columns(state);
     PoreCells cells;
     cells.cell_of.assign(d.x.size(), -1);
-    for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (d.stratum[i] > 0) {
-            cells.cell_of[i] = static_cast<std::int32_t>(cells.rows.size());
-            cells.rows.push_back(static_cast<std::int32_t>(i));
-        }
+    const bool layered = sediment.has_rock() && state.discs.has(dem::columns::layer);
+    const auto layer =
+        layered ? state.discs.get(dem::columns::layer) : std::span<const std::uint8_t>{};
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const bool is_sediment = d.stratum[i] > 0;
+        const PorousRock* const rock =
+            layered && !is_sediment ? sediment.rock_of(layer[i]) : nullptr;
+        if (!is_sediment && !rock)
+            continue;
+        cells.cell_of[i] = static_cast<std::int32_t>(cells.rows.size());
+        cells.rows.push_back(static_cast<std::int32_t>(i));
+        cells.rock.push_back(rock);
+    }
     cells.surface_lengths.assign(cells.count(), 0.0);
     if (cells.rows.empty()) {
         cells.faceted.begin = {0};

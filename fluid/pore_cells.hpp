@@ -11,14 +11,16 @@
 
 namespace listric::fluid {
 
-// Wet discs, which are those of sediment, as cells of a fluid's flow: power cells, on whose facets
-// a difference of two pressures gives flow and force exactly where pressure is linear. Rock is at
-// the pressure of water at rest, which is buoyancy, and lets nothing else through: it is dry.
+// Wet discs, which are those of sediment and of porous rock, as cells of a fluid's flow: power
+// cells, on whose facets a difference of two pressures gives flow and force exactly where pressure
+// is linear. Other rock is at the pressure of water at rest, which is buoyancy, and lets nothing
+// else through: it is dry.
 
 /// Cells of the wet discs.
 struct PoreCells {
     std::vector<std::int32_t> rows;      ///< of the discs, by cell
     std::vector<std::int32_t> cell_of;   ///< by row; -1: dry
+    std::vector<const PorousRock*> rock; ///< by cell; null: sediment
     dem::FacetedCells faceted;           ///< by cell
     std::vector<double> surface_lengths; ///< by cell: of its edge at the ground, m; 0: covered
     std::vector<double> depths;          ///< by cell: of the centre below the ground, m
@@ -30,7 +32,7 @@ struct PoreCells {
     std::size_t count() const { return rows.size(); }
 };
 
-/// Cells of sediment. Those at the ground end a radius above the disc's centre.
+/// Cells of sediment and porous rock. Those at the ground end a radius above the disc's centre.
 PoreCells pore_cells(const dem::State& state, const dem::RigidBase& base,
                      const WetSediment& sediment = {});
 

@@ -97,6 +97,8 @@ void PoreFluid::begin(State& state) {
     state.discs.add(dem::columns::excess_pressure);
     state.discs.add(columns::pore_water);
     state.discs.add(columns::burial);
+    if (sediment_.has_rock())
+        state.discs.add(columns::start_grains);
     state.discs.add(dem::columns::wanted_porosity, laws_.front().surface_porosity);
     state.discs.add(columns::overpressure_ratio);
     state.discs.add(columns::darcy_x);
@@ -107,7 +109,8 @@ void PoreFluid::begin(State& state) {
         add_base_pressure(state);
 }
 
-/// Books the water that has come with sediment and gone with it since the last solution.
+/// Books the water that has come with sediment and gone with it since the last solution; at the
+/// first one that of porous rock, too.
 void PoreFluid::take_stock(State& state, const PoreCells& cells) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const auto water = state.discs.get(columns::pore_water);
@@ -119,7 +122,9 @@ void PoreFluid::take_stock(State& state, const PoreCells& cells) {
             continue;
         }
         const double porosity = law(d.stratum[i]).surface_porosity;
-        water[i] = porosity / (1.0 - porosity) * d.mass[i] / sediment_.grain_density;
+        const PorousRock* const rock = cells.rock[static_cast<std::size_t>(cells.cell_of[i])];
+        water[i] = (rock ? rock->porosity : porosity / (1.0 - porosity)) * d.mass[i] /
+                   sediment_.grain_density;
         came += water[i];
     }
     memory.get<double>(Sums::eroded)[0] += remembered(Sums::left) - known;
@@ -136,10 +141,14 @@ double PoreFluid::grains_of(const WetGround& ground, Point p, double of_discs, d
     return grains * (1.0 + dry * fluid_weight_ / grain_weight());
 }
 
-/// Sediment by cell.
+/// Sediment and porous rock by cell.
 struct PoreFluid::Mud {
-    std::vector<const PoreLaw*> laws;
-    std::vector<double> grains, solid, conductivity, ratios, burial, porosity;
+    std::vector<const PoreLaw*> laws;    ///< of sediment
+    std::vector<const PorousRock*> rock; ///< null: sediment
+    /// Of what is kept, m^2: grains of sediment, all of rock, whose porosity counts as 0.
+    std::vector<double> solid;
+    std::vector<double> grains, conductivity, ratios, burial, porosity;
+    std::vector<double> start_grains; ///< of rock; empty: there is none
     std::vector<FaultFactors> faults; ///< empty: none matter
     PressureBounds bounds;
 };
@@ -150,14 +159,21 @@ PoreFluid::Mud PoreFluid::mud_of(const State& state, const WetGround& ground,
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> of_discs =
         grains_above(state, state.discs.get(dem::columns::porosity));
+    const auto matter = [](const SedimentFlow& f) { return f.faults.matter(); };
     const bool has_faults =
-        std::ranges::any_of(flows_, [](const SedimentFlow& f) { return f.faults.matter(); });
+        std::ranges::any_of(flows_, matter) ||
+        std::ranges::any_of(sediment_.rocks, [&](const auto& r) { return r && matter(r->flow); });
     Mud mud;
+    mud.rock = cells.rock;
     mud.burial = gathered(state, columns::burial, cells);
     mud.porosity = gathered(state, dem::columns::wanted_porosity, cells);
+    if (sediment_.has_rock())
+        mud.start_grains = gathered(state, columns::start_grains, cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
-        const SedimentFlow& flow = flow_of(d.stratum[i]);
+        const SedimentFlow& flow = cells.rock[k] ? cells.rock[k]->flow : flow_of(d.stratum[i]);
+        if (cells.rock[k])
+            mud.porosity[k] = 0.0;
         mud.laws.push_back(&law(d.stratum[i]));
         mud.grains.push_back(grains_of(ground, {d.x[i], d.y[i]}, of_discs[i], level));
         mud.solid.push_back(d.mass[i] / sediment_.grain_density);
@@ -167,12 +183,20 @@ PoreFluid::Mud PoreFluid::mud_of(const State& state, const WetGround& ground,
             mud.faults.push_back(flow.faults);
         mud.bounds.highest.push_back(fluid_.fracture_ratio * grain_weight() * mud.grains[k]);
         mud.bounds.lowest.push_back(-fluid_weight_ * std::max(0.0, level - d.y[i]));
+        if (cells.rock[k] && mud.start_grains[k] < 0.0)
+            mud.start_grains[k] = mud.grains[k];
     }
     return mud;
 }
 
+VoidRatio PoreFluid::pores(const Mud& mud, std::size_t k, double u) const {
+    if (mud.rock[k])
+        return rock_pores(*mud.rock[k], grain_weight() * (mud.grains[k] - mud.start_grains[k]), u);
+    return void_ratio(*mud.laws[k], mud.grains[k], mud.burial[k], u);
+}
+
 /// Water leaves through the stratum that is to come as through more of the cell's own mud; where it
-/// is of another bed, by as much more as that conducts less when fresh.
+/// is of another bed, or the cell is rock, by as much more as that conducts less when fresh.
 void PoreFluid::cover(const State& state, std::int32_t next_stratum, PoreCells& cells) const {
     const auto fresh = [&](std::int32_t stratum) {
         return permeability(flow_of(stratum).permeability, law(stratum).surface_porosity);
@@ -180,9 +204,12 @@ void PoreFluid::cover(const State& state, std::int32_t next_stratum, PoreCells& 
     const ConstDiscColumns d = disc_columns(state);
     const double next = fresh(next_stratum);
     for (std::size_t k = 0; k < cells.count(); ++k)
-        if (const double pending = cells.pending[k]; pending > 0.0)
-            cells.ground_distances[k] +=
-                pending * (fresh(d.stratum[static_cast<std::size_t>(cells.rows[k])]) / next - 1.0);
+        if (const double pending = cells.pending[k]; pending > 0.0) {
+            const double own = cells.rock[k]
+                                   ? permeability(cells.rock[k]->flow.permeability, 0.0)
+                                   : fresh(d.stratum[static_cast<std::size_t>(cells.rows[k])]);
+            cells.ground_distances[k] += pending * (own / next - 1.0);
+        }
 }
 
 bool PoreFluid::apply(State& state, const RigidBase& base) {
@@ -191,14 +218,13 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const WetGround ground(state, base.motion, sediment_);
     Mud mud = mud_of(state, ground, cells);
-    if (!sediment_.beds.empty())
+    if (!sediment_.beds.empty() || sediment_.has_rock())
         cover(state, ground.next_stratum(), cells);
     const Storage storage = [&](std::size_t k, double u) {
-        const PoreLaw& law = *mud.laws[k];
-        const VoidRatio e = void_ratio(law, mud.grains[k], mud.burial[k], u);
-        const double swelling = 1.0 + law.compressibility * u;
+        const VoidRatio e = pores(mud, k, u);
+        const double swelling = 1.0 + fluid_.compressibility * u;
         return Stored{mud.solid[k] * e.value * swelling,
-                      mud.solid[k] * (e.slope * swelling + e.value * law.compressibility)};
+                      mud.solid[k] * (e.slope * swelling + e.value * fluid_.compressibility)};
     };
     const Bedding beds = bedding(state, cells, std::move(mud.ratios));
     const FlowNetwork network =
@@ -211,9 +237,11 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         refuse(state, cells, *outcome.stuck, u[*outcome.stuck], mud.bounds.highest[*outcome.stuck]);
     std::vector<double> ratio;
     for (std::size_t k = 0; k < cells.count(); ++k) {
-        const PoreLaw& law = *mud.laws[k];
-        mud.burial[k] = std::max(mud.burial[k], burial_under(law, mud.grains[k], u[k]));
-        mud.porosity[k] = porosity_at(law, mud.burial[k]);
+        if (!mud.rock[k]) {
+            const PoreLaw& law = *mud.laws[k];
+            mud.burial[k] = std::max(mud.burial[k], burial_under(law, mud.grains[k], u[k]));
+            mud.porosity[k] = porosity_at(law, mud.burial[k]);
+        }
         // At the ground both are next to nothing.
         const double least =
             d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - mud.porosity[k]);
@@ -231,6 +259,8 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     scatter(u, cells, state, dem::columns::excess_pressure);
     scatter(water, cells, state, columns::pore_water);
     scatter(mud.burial, cells, state, columns::burial);
+    if (!mud.start_grains.empty())
+        scatter(mud.start_grains, cells, state, columns::start_grains);
     scatter(mud.porosity, cells, state, dem::columns::wanted_porosity);
     scatter(ratio, cells, state, columns::overpressure_ratio);
     memory.get<double>(Sums::surface)[0] += outcome.surface;
@@ -277,6 +307,9 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         return;
     const std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
     std::vector<Point> force = pore_forces(state, cells, volume, u);
+    const double share = surface_.loads_base ? lifted_share(cells, volume, u) : 1.0;
+    if (surface_.loads_base)
+        lift_what_comes(cells, u, share, force);
     const auto push_x = state.discs.get(dem::columns::push_x);
     const auto push_y = state.discs.get(dem::columns::push_y);
     double capped = 0.0;
@@ -296,8 +329,7 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;
     if (!surface_.loads_base)
         return;
-    memory.get<double>(Sums::closure)[0] =
-        press_base(state, base, cells, u, remembered(Sums::fill), force);
+    memory.get<double>(Sums::closure)[0] = press_base(state, base, cells, u, share, force);
     const auto lift = state.discs.get(dem::columns::lift);
     for (std::size_t i = 0; i < force.size(); ++i) {
         lift[i] = force[i].y;

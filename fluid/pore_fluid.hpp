@@ -13,9 +13,9 @@
 
 namespace listric::fluid {
 
-/// Water in the pores of sediment: flow through geological time, with the compaction that goes with
-/// it, and forces on the discs. Excess pressure u is pressure over that of water at rest, whose
-/// part is buoyancy: discs weigh what their grains weigh in water.
+/// Water in the pores of sediment and of porous rock: flow through geological time, with the
+/// compaction that goes with it, and forces on the discs. Excess pressure u is pressure over that
+/// of water at rest, whose part is buoyancy: discs weigh what their grains weigh in water.
 struct PoreFluidParameters {
     double interval = 2.5e3;          ///< time between solutions, a
     SedimentFlow flow = {};           ///< of sediment without beds
@@ -52,9 +52,9 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 /// pressure, and sediment is so soft against water that the iteration would not be stable.
 ///
 /// Columns of discs: excess_pressure, Pa; pore_water, m^2 (-1: not counted yet); burial, m,
-/// greatest equivalent depth; wanted_porosity, which compaction follows; overpressure_ratio, u over
-/// the weight of grains in water; darcy_x, darcy_y, m/s, volume of water that passes an area in a
-/// time; push_x, push_y; and, where the base is
+/// greatest equivalent depth; start_grains, m, where rock is porous; wanted_porosity, which
+/// compaction follows; overpressure_ratio, u over the weight of grains in water; darcy_x, darcy_y,
+/// m/s, volume of water that passes an area in a time; push_x, push_y; and, where the base is
 /// loaded, those of add_base_pressure(). Its memory has one row: see Sums.
 class PoreFluid : public dem::Event {
 public:
@@ -65,11 +65,11 @@ public:
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
-    /// Names of what is remembered: water, m^2, that came with sediment, left through the ground,
-    /// was vented and eroded, and that is left; the greatest number of Newton's steps so far; and
-    /// of the last solution shares of wet discs whose lift was cut, of those that no flow reaches,
-    /// and the mud's own volumes over those of its cells; where the base is loaded, what was
-    /// missing to balance the pressure on it.
+    /// Names of what is remembered: water, m^2, that came with sediment or was in porous rock, left
+    /// through the ground, was vented and eroded, and that is left; the greatest number of Newton's
+    /// steps so far; and of the last solution shares of wet discs whose lift was cut, of those that
+    /// no flow reaches, and the mud's own volumes over those of its cells; where the base is
+    /// loaded, what was missing to balance the pressure on it.
     struct Sums {
         static constexpr const char *came = "came", *surface = "surface", *vented = "vented",
                                     *eroded = "eroded", *left = "left", *newton = "newton_steps",
@@ -92,6 +92,7 @@ private:
     std::size_t bed_of(std::int32_t stratum) const { return sediment_.beds.of(stratum); }
     void take_stock(dem::State& state, const PoreCells& cells);
     Mud mud_of(const dem::State& state, const WetGround& ground, const PoreCells& cells) const;
+    VoidRatio pores(const Mud& mud, std::size_t cell, double excess_pressure) const;
     void cover(const dem::State& state, std::int32_t next_stratum, PoreCells& cells) const;
     double pending_load(const PoreCells& cells, std::size_t cell) const;
     double grains_of(const WetGround& ground, dem::Point p, double of_discs, double level) const;

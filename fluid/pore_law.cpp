@@ -76,4 +76,13 @@ VoidRatio void_ratio(const PoreLaw& law, double grains, double burial, double ex
     return {least + law.rebound * (e.value - least), law.rebound * e.slope};
 }
 
+VoidRatio rock_pores(const PorousRock& rock, double load, double excess_pressure) {
+    const double over = rock.compressibility / rock.porosity; // of its pores
+    const double released = excess_pressure - load;
+    if (released > 0.0)
+        return {rock.porosity + rock.compressibility * released, rock.compressibility};
+    const double pores = rock.porosity * dem::exponential(over * released);
+    return {pores, over * pores};
+}
+
 } // namespace listric::fluid

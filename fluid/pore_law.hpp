@@ -56,7 +56,8 @@ double grains_at(const PoreLaw& law, double depth);
 /// Depth of that column at which so much of grains, m, lies above: the inverse of grains_at().
 double equivalent_depth(const PoreLaw& law, double grains);
 
-/// Pores over grains, and the derivative by excess pressure, 1/Pa.
+/// Pores over what is kept, grains of sediment or the volume of rock, and the derivative by excess
+/// pressure, 1/Pa.
 struct VoidRatio {
     double value = 0.0, slope = 0.0;
 };
@@ -64,6 +65,18 @@ struct VoidRatio {
 /// Void ratio under so much of grains, m, with excess pressure u, Pa, of sediment whose greatest
 /// equivalent depth so far is `burial`, m.
 VoidRatio void_ratio(const PoreLaw& law, double grains, double burial, double excess_pressure);
+
+/// Rock before extension that water flows through. It is stiff: its volume stays, and its pores
+/// close by phi_0 exp(-compressibility s / phi_0), where s is effective stress beyond that at the
+/// start, and open by -compressibility s where it is less.
+struct PorousRock {
+    double porosity = 0.1;          ///< phi_0
+    double compressibility = 1e-10; ///< of its volume by effective stress, 1/Pa
+    SedimentFlow flow = {.permeability = {.law = PermeabilityLaw::constant}};
+};
+
+/// Pores over its volume under so much more stress than at the start, Pa, with excess pressure.
+VoidRatio rock_pores(const PorousRock& rock, double load, double excess_pressure);
 
 /// Equivalent depth under grains and excess pressure, m.
 double burial_under(const PoreLaw& law, double grains, double excess_pressure);

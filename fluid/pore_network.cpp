@@ -31,6 +31,12 @@ double common_length(const PoreCells& cells, std::size_t first, const PowerFacet
     return 0.0;
 }
 
+/// Whether the beds of two cells are told by one number: age in sediment, height at the start in
+/// rock.
+bool are_alike(const PoreCells& cells, std::size_t first, std::size_t second) {
+    return !cells.rock[first] == !cells.rock[second];
+}
+
 /// Gradient of the plane by least squares through the ages of a cell and those that it touches.
 Point age_gradient(const State& state, const PoreCells& cells, std::size_t k) {
     const ConstDiscColumns d = disc_columns(state);
@@ -40,10 +46,12 @@ Point age_gradient(const State& state, const PoreCells& cells, std::size_t k) {
         if (facet.neighbour < 0)
             continue;
         const auto j = static_cast<std::size_t>(facet.neighbour);
-        if (cells.cell_of[j] < 0)
+        if (cells.cell_of[j] < 0 ||
+            !are_alike(cells, k, static_cast<std::size_t>(cells.cell_of[j])))
             continue;
         const double x = d.x[j] - d.x[i], y = d.y[j] - d.y[i];
-        const double later = d.start_travel[j] - d.start_travel[i];
+        const double later =
+            cells.rock[k] ? d.start_y[j] - d.start_y[i] : d.start_travel[j] - d.start_travel[i];
         xx += x * x;
         xy += x * y;
         yy += y * y;
@@ -57,14 +65,14 @@ Point age_gradient(const State& state, const PoreCells& cells, std::size_t k) {
     return {(yy * xt - xy * yt) / determinant, (xx * yt - xy * xt) / determinant};
 }
 
-/// Sum of a vector of every cell and of those that it touches.
+/// Sum of a vector of every cell and of those alike that it touches.
 std::vector<Point> summed_about(const PoreCells& cells, const std::vector<Point>& own) {
     std::vector<Point> sums = own;
     for (std::size_t k = 0; k < cells.count(); ++k)
         for (const PowerFacet& facet : cells.faceted.of(k)) {
             const std::int32_t other =
                 facet.neighbour < 0 ? -1 : cells.cell_of[static_cast<std::size_t>(facet.neighbour)];
-            if (other < 0)
+            if (other < 0 || !are_alike(cells, k, static_cast<std::size_t>(other)))
                 continue;
             sums[k].x += own[static_cast<std::size_t>(other)].x;
             sums[k].y += own[static_cast<std::size_t>(other)].y;

@@ -25,7 +25,13 @@ struct Bedding {
     dem::Point flow_of(std::size_t cell, dem::Point gradient) const;
 };
 
-/// The beds are where sediment is equally old: by the plane through the ages of a cell and its
+/// Dips scatter by some 4 degrees where strata are as thick as discs, so that beds leak across:
+/// through level ones flows 1.03, 1.08, 1.23 and 3.6 times what should at ratios of 100, 1000, 1e4
+/// and 1e6. Above this ratio it is more than a quarter.
+inline constexpr double greatest_tight_ratio = 1e4;
+
+/// The beds are where sediment is equally old, and where rock was equally high at the start: by the
+/// plane through the ages, or heights, of a cell and its
 /// neighbours, three times mean of the cell's and its neighbours', since discs of a stratum lie up
 /// to a diameter above each other. Level where they are too few.
 Bedding bedding(const dem::State& state, const PoreCells& cells, std::vector<double> ratios);

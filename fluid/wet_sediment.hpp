@@ -6,12 +6,14 @@
 #include "dem/event.hpp"
 #include "fluid/pore_law.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace listric::fluid {
 
-/// Facts of sediment that the fluid needs.
+/// Facts of sediment that the fluid needs, and of rock that it flows through.
 struct WetSediment {
     double surface_porosity = 0.5;
     double porosity_decay = 4e-4;          ///< with depth, 1/m
@@ -20,9 +22,19 @@ struct WetSediment {
     dem::Schedule deposition = dem::never; ///< from stratum to stratum
     dem::Beds beds = {};                   ///< with pores of their own; none: as above
     std::vector<SedimentFlow> flows = {};  ///< by bed
+    /// By layer of rock, the column `layer` from 1 on; none: it is impermeable.
+    std::vector<std::optional<PorousRock>> rocks = {};
 
     dem::PorosityLaw pores_of(std::int32_t stratum) const {
         return beds.law(stratum, {surface_porosity, porosity_decay});
+    }
+    /// The rock of a layer if water flows through it, else null.
+    const PorousRock* rock_of(std::uint8_t layer) const {
+        return layer > 0 && layer <= rocks.size() && rocks[layer - 1u] ? &*rocks[layer - 1u]
+                                                                       : nullptr;
+    }
+    bool has_rock() const {
+        return std::ranges::any_of(rocks, [](const auto& rock) { return rock.has_value(); });
     }
 };
 

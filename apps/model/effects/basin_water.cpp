@@ -102,7 +102,9 @@ const Effect& effect() {
         .absence = {"water in the basin and in the pores of its sediment", "-30 to -39 %",
                     pores_have_water},
         .lacks = {{"sideways thrust of the water on scarp and head block",
-                   "not measured; 0.4e12 N/m on a bare scarp of 9 km", pores_have_water}},
+                   "not measured; 0.4e12 N/m on a bare scarp of 9 km", pores_have_water},
+                  {"water in gaps that open between discs", "0 to -4 % of the net load",
+                   pores_have_water}},
         .measures =
             {{coupling::basin_water_name, "N/m", "weight of the basin's water",
               "weight of the water on the detachment per metre of strike beyond that at the "

@@ -6,6 +6,7 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/words/spelling.hpp"
 #include "fluid/pore_law.hpp"
+#include "fluid/pore_network.hpp"
 
 #include <fmt/format.h>
 
@@ -54,9 +55,8 @@ std::vector<Parameter> parameters() {
          "clay of law mudstone: mass below 2 micrometres, over all", of_file},
         {"permeability_ratio", at<&B::ratio>, "", between(0.1, 1e8), "",
          "permeability along bedding over that across; default: that of all sediment",
-         "Raising it lets the bed hand water up its dip. Above 100 it leaks across all the same, "
-         "for "
-         "dips scatter from disc to disc."},
+         "Raising it lets the bed hand water up its dip. Above 1e4 it leaks across all the same, "
+         "for dips scatter from disc to disc."},
         {"fault_along", at<&B::fault_along>, "", between(1e-6, 1e6), "",
          "permeability between weakened discs of it over that of sound ones; default: that of all "
          "sediment",
@@ -225,6 +225,19 @@ void contribute(const Scene& scene, ModelParts& parts) {
     }
 }
 
+std::string warning(const Scene& scene) {
+    const SedimentBeds& beds = *scene.find<SedimentBeds>();
+    const std::vector<fluid::SedimentFlow> flows = make_parts(scene).sediment->flows;
+    for (std::size_t k = 0; k < flows.size(); ++k)
+        if (flows[k].ratio > fluid::greatest_tight_ratio)
+            return fmt::format(
+                "bed: {} conducts {:.3g} times as much along as across; dips scatter "
+                "from disc to disc, so that above {:g} it leaks across by more than "
+                "a quarter",
+                name_of(beds, k), flows[k].ratio, fluid::greatest_tight_ratio);
+    return "";
+}
+
 /// What a bed becomes below a floor that sinks by nine tenths of the extension, and a warning where
 /// discs are too large for it.
 std::string explain(const Scene& scene, EffectList) {
@@ -274,6 +287,7 @@ const Effect& effect() {
                    FileParameter::material}},
         .needs = {"pore_fluid"},
         .check = check,
+        .warning = warning,
         .contribute = contribute,
         .explain = explain,
     };

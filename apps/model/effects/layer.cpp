@@ -1,6 +1,7 @@
 #include "apps/scene/parameters/scene_layer.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/toml/toml.hpp"
 #include "apps/support/error.hpp"
@@ -65,6 +66,21 @@ std::vector<Parameter> parameters() {
          "whether bonds may join it to the rock above and below",
          "false leaves its top and bottom without bonds at all times: planes on which it may "
          "slip."},
+        {"permeability_m2", at<&L::permeability>, "m2", between(1e-22, 1e-12), "",
+         "permeability across bedding, which was level; needs [pore_fluid]. None: no water flows "
+         "through the layer, and its pressure is that of water at rest",
+         "Raising it lets the layer drain the mud on it, and hand pressure sideways.",
+         between(1e-18, 1e-13)},
+        {"permeability_ratio", at<&L::permeability_ratio>, "", between(0.1, 1000), "",
+         "permeability along bedding over that across; default: 1",
+         "Raising it lets the layer hand pressure further.", between(1, 10)},
+        {"porosity", at<&L::porosity>, "", between(0.01, 0.5), "",
+         "pores before extension over volume, where water flows; default: 0.1",
+         "Raising it lets the layer take up more water.", between(0.05, 0.25)},
+        {"compressibility_per_pa", at<&L::compressibility>, "1/Pa", between(1e-12, 1e-9), "",
+         "decrease of its pores over volume by effective stress, where water flows; default: 1e-10",
+         "Raising it lets the layer take up more water, and lose more under load.",
+         between(1e-11, 3e-10)},
         {"normal_stiffness_pa", at<&L::normal_stiffness>, "Pa", ranges::stiffness, "k_n",
          "normal stiffness of one disc, if not its material's", of_file},
         {"shear_stiffness_pa", at<&L::shear_stiffness>, "Pa", ranges::stiffness, "k_s",
@@ -317,6 +333,24 @@ void check_overlap(const Scene& scene, const SceneLayers& layers, const Refuse& 
             }
 }
 
+void check_water(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
+    const std::pair<std::string_view, bool> of_water[] = {
+        {"permeability_ratio", layer.permeability_ratio.has_value()},
+        {"porosity", layer.porosity.has_value()},
+        {"compressibility_per_pa", layer.compressibility.has_value()}};
+    for (const auto& [key, is_given] : of_water)
+        if (is_given && !layer.permeability)
+            refuse(path_of(item, key),
+                   fmt::format("is about water that flows through {}, and none does; give "
+                               "permeability_m2, for example 1e-15, or leave it out",
+                               layer.name));
+    if (layer.permeability && !make_parts(scene).water)
+        refuse(path_of(item, "permeability_m2"),
+               fmt::format("is {}, and the scene has no water in its pores; add [pore_fluid] or "
+                           "leave it out",
+                           text(*layer.permeability)));
+}
+
 void check_rock(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
     const std::string table = fmt::format("layer[{}]", item);
     if (!layer.normal_stiffness || !layer.shear_stiffness || !layer.friction)
@@ -354,6 +388,7 @@ void check(const Scene& scene, const Refuse& refuse) {
                                                        layers[k].name));
         check_bounds(layers[k], k, refuse);
         check_rock(scene, layers[k], k, refuse);
+        check_water(scene, layers[k], k, refuse);
         check_geometry(scene, layers[k], k, refuse);
     }
     check_overlap(scene, layers, refuse);
@@ -391,6 +426,27 @@ dem::TargetLine line_of(const Scene& scene, const L& layer, double (L::*depth)(d
     return dem::TargetLine(points);
 }
 
+std::optional<fluid::PorousRock> pores_of(const L& layer) {
+    if (!layer.permeability)
+        return {};
+    fluid::PorousRock rock;
+    rock.porosity = layer.porosity.value_or(rock.porosity);
+    rock.compressibility = layer.compressibility.value_or(rock.compressibility);
+    rock.flow.permeability.at_fifth = *layer.permeability;
+    rock.flow.ratio = layer.permeability_ratio.value_or(1.0);
+    return rock;
+}
+
+/// How water flows through a layer is nothing to its start.
+void as_in_genesis(std::any& parameters) {
+    for (L& layer : std::any_cast<SceneLayers&>(parameters)) {
+        layer.permeability.reset();
+        layer.permeability_ratio.reset();
+        layer.porosity.reset();
+        layer.compressibility.reset();
+    }
+}
+
 void contribute(const Scene& scene, ModelParts& parts) {
     const bool is_weakened = parts.detection_circle.has_value();
     for (const L& layer : *scene.find<SceneLayers>()) {
@@ -409,7 +465,8 @@ void contribute(const Scene& scene, ModelParts& parts) {
             {layer.name,
              index,
              {line_of(scene, layer, &L::top_at), line_of(scene, layer, &L::bottom_at), index,
-              layer.density.value_or(scene.hanging_wall.rock_density)}});
+              layer.density.value_or(scene.hanging_wall.rock_density)},
+             pores_of(layer)});
         if (!is_weakened || !layer.weakens)
             continue;
         dem::Material weak = parts.materials[dem::weak];
@@ -471,6 +528,7 @@ const Effect& effect() {
                    "file with points of its bottom, in place of bottom: columns x_m, depth_m",
                    "Stands in place of bottom.", nullptr, take_bottom}},
         .in_genesis = true,
+        .as_in_genesis = as_in_genesis,
         .check = check,
         .warning = warning,
         .contribute = contribute,

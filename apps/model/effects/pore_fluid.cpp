@@ -83,13 +83,19 @@ std::vector<Parameter> parameters() {
 }
 
 fluid::WetSediment wet_sediment(const ModelParts& parts, const dem::Calendar& calendar) {
-    return {parts.sediment->surface_porosity,
-            *parts.sediment->porosity_decay,
-            parts.sediment->grain_density,
-            parts.sediment->surface,
-            {parts.sediment->deposition_interval, calendar, dem::InSteps::once},
-            parts.sediment->beds,
-            parts.sediment->flows};
+    fluid::WetSediment wet{parts.sediment->surface_porosity,
+                           *parts.sediment->porosity_decay,
+                           parts.sediment->grain_density,
+                           parts.sediment->surface,
+                           {parts.sediment->deposition_interval, calendar, dem::InSteps::once},
+                           parts.sediment->beds,
+                           parts.sediment->flows};
+    for (const LayerFacts& layer : parts.layers) {
+        wet.rocks.push_back(layer.pores);
+        if (layer.pores) // faults cut rock and sediment alike
+            wet.rocks.back()->flow.faults = parts.sediment->flow.faults;
+    }
+    return wet;
 }
 
 fluid::MudColumn mud_column(const P& p, const fluid::WetSediment& sediment, double gravity) {
@@ -253,6 +259,31 @@ std::string explain_water_on_base(const Scene& scene, const ModelParts& parts) {
             : "dry is what lies above it");
 }
 
+/// How long pressure takes to even out in layers of rock that water flows through.
+std::string explain_rock(const P& p, const ModelParts& parts) {
+    std::string lines;
+    for (const LayerFacts& layer : parts.layers) {
+        if (!layer.pores)
+            continue;
+        const fluid::PorousRock& rock = *layer.pores;
+        const double storage = rock.porosity * p.compressibility + rock.compressibility; // 1/Pa
+        const double across = rock.flow.permeability.at_fifth / (p.viscosity * storage); // m2/s
+        constexpr double far = 10e3;                                                     // m
+        double thick = 0.0;
+        for (const dem::Point point : layer.rock.top.points())
+            thick = std::max(thick, point.y - layer.rock.bottom.height(point.x));
+        const auto years = [](double length, double diffusivity) {
+            return length * length / diffusivity / dem::seconds_per_year;
+        };
+        lines += fmt::format(
+            "  rock {} drains: {:.2g} m2, {:.3g} times as much along bedding; pressure evens out "
+            "across its {:.0f} m in {:.2g} a, along {:.0f} km in {:.2g} a\n",
+            layer.name, rock.flow.permeability.at_fifth, rock.flow.ratio, thick,
+            years(thick, across), far / 1e3, years(far, rock.flow.ratio * across));
+    }
+    return lines;
+}
+
 /// Pressure and porosity of a column of this mud at the depocentre.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
@@ -293,7 +324,7 @@ std::string explain(const Scene& scene, EffectList) {
         "km that is a pore pressure of {:.3f} of the weight of grains and water\n"
         "  a floor that sinks by {:.1f} km has Gibson's number {:.2g}: {}\n"
         "  overpressure ratio of a column of {}: {}; "
-        "porosity {:.3f} there{}\n{}",
+        "porosity {:.3f} there{}\n{}{}",
         parts.physics.gravity / parts.gravity, p.interval, p.fracture_ratio, half / 1e3,
         (at_rest + p.fracture_ratio * weight) / (at_rest + weight), depth / 1e3, gibson,
         gibson < fluid::gibson_at_rest
@@ -301,7 +332,7 @@ std::string explain(const Scene& scene, EffectList) {
         : gibson > fluid::gibson_undrained ? "hardly any water leaves but through fractures"
                                            : "water leaves while mud is buried",
         column.beds.empty() ? "this mud" : "these beds", ratios, sunk.at(half).porosity, beside,
-        explain_water_on_base(scene, parts));
+        explain_rock(p, parts), explain_water_on_base(scene, parts));
 }
 
 } // namespace

@@ -112,11 +112,26 @@ V overpressured(const std::vector<WetDisc>& wet) {
     return mean(wet, [](const WetDisc& d) { return d.ratio() >= 0.5 ? 1.0 : 0.0; });
 }
 
-/// Ink of every disc of the hanging wall, none on rock.
+/// Of porous rock; none where there is none.
+V rock_overpressure(const Observation& now) {
+    const std::vector<WetDisc> rock = wet_rock(now);
+    return rock.empty() ? std::nullopt : V(overpressure(rock));
+}
+
+V water_in_rock(const Observation& now) {
+    const std::vector<WetDisc> rock = wet_rock(now);
+    double sum = 0.0;
+    for (const WetDisc& disc : rock)
+        sum += disc.water;
+    return rock.empty() ? std::nullopt : V(sum);
+}
+
+/// Ink of every disc of the hanging wall, none on rock that no water flows through.
 template <class Number> std::vector<double> inks(const Observation& now, Number&& number) {
     std::vector<double> rows(now.state.discs.rows(), 0.0);
-    for (const WetDisc& disc : wet_discs(now))
-        rows[disc.row] = std::clamp(number(disc), 0.0, 1.0);
+    for (const std::vector<WetDisc>& discs : {wet_discs(now), wet_rock(now)})
+        for (const WetDisc& disc : discs)
+            rows[disc.row] = std::clamp(number(disc), 0.0, 1.0);
     return rows;
 }
 
@@ -158,32 +173,45 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
         {"overpressured_share", "1", "overpressured share of sediment",
          "share of sediment whose excess pressure is at least half of the grains' weight in water",
          of_discs<overpressured>},
-        {"water_came_m2", "m2", "pore water that came", "pore water that came with sediment",
+        {"rock_overpressure_ratio", "1", "overpressure ratio of rock",
+         "excess pore pressure over the weight of grains in water: ratio of their sums over the "
+         "rock of layers that water flows through, where there are some",
+         rock_overpressure},
+        {"water_rock_m2", "m2", "pore water in rock",
+         "pore water in rock of layers that water flows through, where there are some",
+         water_in_rock},
+        {"water_came_m2", "m2", "pore water that came",
+         "pore water that came with sediment, or was in rock of layers that it flows through",
          remembered<Sums::came>},
         {"water_surface_m2", "m2", "pore water that left through the ground",
          "pore water that left through the ground", remembered<Sums::surface>},
         {"water_vented_m2", "m2", "pore water vented through fractures",
          "pore water that left where its pressure opens fractures", remembered<Sums::vented>},
         {"water_eroded_m2", "m2", "pore water that went with eroded sediment",
-         "pore water that went with eroded sediment", remembered<Sums::eroded>},
-        {"water_left_m2", "m2", "pore water that is left", "pore water in the sediment",
+         "pore water that went with eroded sediment and rock", remembered<Sums::eroded>},
+        {"water_left_m2", "m2", "pore water that is left",
+         "pore water in sediment and in rock of layers that it flows through",
          remembered<Sums::left>},
         {water_error, "1", "error of the water's balance",
          "water that came less where it went, over it. Round-off", balance_error, largest,
          "below 1e-11"},
         {"lift_capped_share", "1", "sediment as good as afloat",
-         "share of sediment discs whose lift was cut to 0.99 of their weight",
+         "share of discs of sediment, and of rock that water flows through, whose lift was cut to "
+         "0.99 of their weight",
          remembered<Sums::capped>, mean},
         {"enclosed_share", "1", "sediment without a way for its water",
-         "share of sediment discs that no way of the water joins to the ground",
+         "share of discs of sediment, and of rock that water flows through, that no way of the "
+         "water joins to the ground",
          remembered<Sums::enclosed>},
         {"fill", "1", "mud over the cells that hold it",
-         "the mud's own volume over that of the cells of its discs", remembered<Sums::fill>},
+         "the volume of mud, and of rock that water flows through, over that of the cells of its "
+         "discs",
+         remembered<Sums::fill>},
         {fluid_closure, "1", "missing pressure on the base",
          "rest that forces of excess pressure on sediment, rock and base lack to a sum of zero, "
          "over the pressure times length on rock and base, which are given it. Where the base "
          "bends",
-         closure, OverTime::last, "below 0.02 from 3.5 km of extension on"},
+         closure, OverTime::last, "below 0.02 from 1 km of extension on"},
         {coupling::water_load_name, "N/m", "water's weight on the base",
          "vertical force of the water's pressure, excess pressure too, on the base beyond that at "
          "the start, downward. Where the base bends"},

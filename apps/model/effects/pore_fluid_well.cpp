@@ -15,7 +15,37 @@ using fluid::PoreFluid;
 
 const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
 
-std::vector<WetDisc> wet_discs(const Observation& now) {
+namespace {
+
+enum class Wet { sediment, rock };
+
+/// What is between grains of a disc, and what would be if water were at rest.
+void add_pores(const PoreFluid& fluid, const dem::State& state, double porosity, WetDisc& disc) {
+    const dem::ConstDiscColumns d = dem::disc_columns(state);
+    const std::size_t i = disc.row;
+    const double solid = d.mass[i] / fluid.sediment().grain_density;
+    if (d.stratum[i] == 0) {
+        const fluid::PorousRock& rock =
+            *fluid.sediment().rock_of(state.discs.get(dem::columns::layer)[i]);
+        const double load =
+            disc.weight - fluid.grain_weight() * state.discs.get(fluid::columns::start_grains)[i];
+        disc.volume = solid;
+        disc.porosity = fluid::rock_pores(rock, load, disc.excess_pressure).value;
+        disc.normal_porosity = fluid::rock_pores(rock, load, 0.0).value;
+        disc.permeability = fluid::permeability(rock.flow.permeability, disc.porosity);
+        return;
+    }
+    disc.volume = solid / (1.0 - porosity);
+    disc.porosity = porosity;
+    const fluid::PoreLaw& law = fluid.law(d.stratum[i]);
+    disc.normal_porosity =
+        fluid::porosity_at(law, fluid.sediment().beds.empty()
+                                    ? disc.depth
+                                    : fluid::equivalent_depth(law, disc.weight / law.grain_weight));
+    disc.permeability = fluid::permeability(fluid.flow_of(d.stratum[i]).permeability, porosity);
+}
+
+std::vector<WetDisc> discs_of(const Observation& now, Wet which) {
     std::vector<WetDisc> wet;
     const PoreFluid* const fluid = fluid_in(now);
     if (!fluid)
@@ -30,7 +60,8 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
     const fluid::WetGround ground(state, now.parts.base.motion, fluid->sediment());
     const dem::Calendar calendar = make_calendar(now.scene);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (water[i] < 0.0) // rock, and sediment that came after the last solution
+        // Rock that nothing flows through, and sediment that came after the last solution.
+        if (water[i] < 0.0 || (d.stratum[i] > 0) != (which == Wet::sediment))
             continue;
         WetDisc& disc = wet.emplace_back();
         disc.row = i;
@@ -38,21 +69,24 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         disc.y = d.y[i];
         disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
         disc.age = calendar.years(dem::Travel(d.start_travel[i]), state.clock.travel);
-        disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
+        disc.water = water[i];
         disc.excess_pressure = pressure[i];
         disc.weight = ratio[i] != 0.0
                           ? pressure[i] / ratio[i]
                           : ground.grains({d.x[i], d.y[i]}, grains[i]) * fluid->grain_weight();
-        disc.porosity = porosity[i];
-        const fluid::PoreLaw& law = fluid->law(d.stratum[i]);
-        disc.normal_porosity = fluid::porosity_at(
-            law, fluid->sediment().beds.empty()
-                     ? disc.depth
-                     : fluid::equivalent_depth(law, disc.weight / law.grain_weight));
-        disc.permeability =
-            fluid::permeability(fluid->flow_of(d.stratum[i]).permeability, porosity[i]);
+        add_pores(*fluid, state, porosity[i], disc);
     }
     return wet;
+}
+
+} // namespace
+
+std::vector<WetDisc> wet_discs(const Observation& now) { return discs_of(now, Wet::sediment); }
+
+std::vector<WetDisc> wet_rock(const Observation& now) {
+    const PoreFluid* const fluid = fluid_in(now);
+    return fluid && fluid->sediment().has_rock() ? discs_of(now, Wet::rock)
+                                                 : std::vector<WetDisc>{};
 }
 
 double depocentre(const std::vector<WetDisc>& wet) {
@@ -86,10 +120,9 @@ double harmonic_permeability(const Bin& bin) {
     return volume / resistance;
 }
 
-std::vector<Bin> bins_by_depth(const Observation& now, double x) {
-    const double step = std::max(250.0, 4.0 * now.state.mean_radius);
+std::vector<Bin> bins_by_depth(const std::vector<WetDisc>& discs, double x, double step) {
     std::vector<Bin> bins;
-    for (const WetDisc& disc : wet_discs(now)) {
+    for (const WetDisc& disc : discs) {
         if (std::abs(disc.x - x) > half_well)
             continue;
         const auto bin = static_cast<std::size_t>(disc.depth / step);
@@ -100,14 +133,12 @@ std::vector<Bin> bins_by_depth(const Observation& now, double x) {
     return bins;
 }
 
-} // namespace
-
-std::vector<WellPoint> well_at(const Observation& now, double x) {
+std::vector<WellPoint> well_through(const Observation& now, const std::vector<WetDisc>& discs,
+                                    double x, bool of_one_kind) {
     const PoreFluid* const fluid = fluid_in(now);
     std::vector<WellPoint> points;
-    if (!fluid)
-        return points;
-    for (const Bin& bin : bins_by_depth(now, x)) {
+    const double step = std::max(250.0, 4.0 * now.state.mean_radius);
+    for (const Bin& bin : bins_by_depth(discs, x, step)) {
         if (bin.empty())
             continue;
         WellPoint& p = points.emplace_back();
@@ -125,11 +156,27 @@ std::vector<WellPoint> well_at(const Observation& now, double x) {
         p.ratio = p.excess / weight;
         p.porosity = mean_of<&WetDisc::porosity>(bin);
         p.normal_porosity = mean_of<&WetDisc::normal_porosity>(bin);
-        p.permeability = fluid->sediment().beds.empty()
+        p.permeability = of_one_kind
                              ? fluid::permeability(fluid->flow_of(0).permeability, p.porosity)
                              : harmonic_permeability(bin);
         p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
     }
+    return points;
+}
+
+} // namespace
+
+std::vector<WellPoint> well_at(const Observation& now, double x) {
+    const PoreFluid* const fluid = fluid_in(now);
+    return fluid ? well_through(now, wet_discs(now), x, fluid->sediment().beds.empty())
+                 : std::vector<WellPoint>{};
+}
+
+std::vector<WellPoint> deep_well_at(const Observation& now, double x) {
+    std::vector<WellPoint> points = well_at(now, x);
+    const std::vector<WellPoint> rock = well_through(now, wet_rock(now), x, false);
+    points.insert(points.end(), rock.begin(), rock.end());
+    std::ranges::stable_sort(points, {}, &WellPoint::depth);
     return points;
 }
 
@@ -157,7 +204,8 @@ constexpr Measure<WellPoint> of_point[] = {
     {"permeability_m2", "m2", "permeability", "permeability", taken<&WellPoint::permeability>},
     {"mud_weight_kg_per_m3", "kg/m3", "mud weight",
      "density of a drilling mud whose weight is the pressure", taken<&WellPoint::mud_weight>},
-    {"age_a", "a", "age", "time since the sediment was laid down", taken<&WellPoint::age>},
+    {"age_a", "a", "age", "time since the sediment was laid down; of rock since the start",
+     taken<&WellPoint::age>},
 };
 
 std::vector<WellPlace> places(const Observation& now) {
@@ -166,6 +214,6 @@ std::vector<WellPlace> places(const Observation& now) {
 
 } // namespace
 
-MeasuredWell pore_well() { return measured_well<WellPoint, of_point, well_at>(places); }
+MeasuredWell pore_well() { return measured_well<WellPoint, of_point, deep_well_at>(places); }
 
 } // namespace listric::effects

@@ -10,13 +10,14 @@ namespace listric::effects {
 /// The fluid of a run; null where its water is at rest.
 const fluid::PoreFluid* fluid_in(const Observation& now);
 
-/// State of the fluid in a disc of sediment.
+/// State of the fluid in a disc of sediment or of porous rock.
 struct WetDisc {
     std::size_t row = 0;
     double x = 0.0, y = 0.0;
     double depth = 0.0;           ///< below the ground with what is pending on it, m
-    double age = 0.0;             ///< since it was laid down, a
-    double volume = 0.0;          ///< of its mud, m^2
+    double age = 0.0;             ///< since it was laid down; of rock since the start, a
+    double volume = 0.0;          ///< of its mud, or of rock, m^2
+    double water = 0.0;           ///< m^2
     double excess_pressure = 0.0; ///< Pa
     double weight = 0.0;          ///< of grains in water above, at the last solution, Pa
     double porosity = 0.0, normal_porosity = 0.0;
@@ -25,8 +26,9 @@ struct WetDisc {
     double ratio() const { return weight > 0.0 ? excess_pressure / weight : 0.0; }
 };
 
-/// Discs that the last solution knew.
+/// Discs of sediment, or of porous rock, that the last solution knew.
 std::vector<WetDisc> wet_discs(const Observation& now);
+std::vector<WetDisc> wet_rock(const Observation& now);
 
 /// Place where sediment is deepest, m.
 double depocentre(const std::vector<WetDisc>& wet);
@@ -46,8 +48,11 @@ struct WellPoint {
     double age = 0.0;          ///< since it was laid down, a
 };
 
-/// From the ground down.
+/// Through sediment, from the ground down.
 std::vector<WellPoint> well_at(const Observation& now, double x);
+
+/// Through porous rock, too, by depth.
+std::vector<WellPoint> deep_well_at(const Observation& now, double x);
 
 /// How wells are named, placed and written.
 MeasuredWell pore_well();

@@ -120,8 +120,9 @@ struct StretchedCrust {
 /// A layer of rock as effects describe it to genesis and to measures.
 struct LayerFacts {
     std::string name;
-    std::uint8_t material = 0; ///< of its sound rock
-    dem::RockLayer rock;       ///< its place before extension
+    std::uint8_t material = 0;                   ///< of its sound rock
+    dem::RockLayer rock;                         ///< its place before extension
+    std::optional<fluid::PorousRock> pores = {}; ///< that water flows through; none: impermeable
 };
 
 /// Parts that effects put into a model besides events: each adds its share in the order of the

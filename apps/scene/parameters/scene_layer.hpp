@@ -18,6 +18,9 @@ struct SceneLayer {
     std::optional<double> density; ///< of the bulk, kg/m^3; none: the hanging wall's
     bool is_welded = true;
 
+    /// Of water through it; none: it is impermeable.
+    std::optional<double> permeability, permeability_ratio, porosity, compressibility;
+
     // Properties of its rock: of its material's file, where the table does not say them.
     std::optional<double> normal_stiffness, shear_stiffness, friction, rolling_friction;
     std::array<std::optional<double>, 4> strength = {}; ///< of bonds; none: it has no bonds

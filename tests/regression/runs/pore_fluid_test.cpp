@@ -173,6 +173,70 @@ TEST_F(PoreFluidRun, DrainsAlongTheBeds) {
     EXPECT_LT(ratio("100"), ratio("1"));
 }
 
+/// A layer of rock below the basin takes up pressure of its mud; without the key it is as tight as
+/// ever.
+TEST_F(PoreFluidRun, RockOfALayerDrains) {
+    const auto with_layer = [](const std::string& water) {
+        return std::vector<std::string>{
+            "pore_fluid.permeability_m2=1e-20",
+            fmt::format(R"(layer=[{{name="sandstone", top_m=0.0, thickness_m=800.0, )"
+                        R"(material="mat18-b"{}}}])",
+                        water)};
+    };
+    const auto drains = with_layer(", permeability_m2=1e-15, permeability_ratio=3.0");
+    const auto tight = run_with("tight", with_layer(""));
+    const auto once = run_with("once", drains);
+    EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-11);
+    EXPECT_GT(once["water_rock_m2"].get<double>(), 0.1 * 4000.0 * 500.0);
+    EXPECT_FALSE(tight.contains("water_rock_m2"));
+    EXPECT_GT(once["rock_overpressure_ratio"].get<double>(), 0.0);
+    EXPECT_LT(once["overpressure_ratio_mean"].get<double>(),
+              0.9 * tight["overpressure_ratio_mean"].get<double>());
+    EXPECT_FALSE(last_state("tight").discs.has("start_grains"));
+    EXPECT_EQ(run_with("threads", drains, 2)["state_hash"], once["state_hash"]);
+    RunOptions o = options("parts");
+    o.until = 112.5; // between two solutions
+    run_scene(with(drains), o);
+    o.until = {};
+    o.resume = true;
+    EXPECT_EQ(run(with(drains), o)["state_hash"], once["state_hash"]);
+    // Wells and figures go on into the rock.
+    EXPECT_GT(once["pressure_profile"].size(), tight["pressure_profile"].size());
+    EXPECT_THAT(explain(with(drains), 1, program_effects()),
+                AllOf(HasSubstr("rock sandstone drains: 1e-15 m2, 3 times as much along bedding"),
+                      HasSubstr("across its 800 m in ")));
+}
+
+TEST_F(PoreFluidRun, GenesisOfALayerKnowsNothingOfItsWater) {
+    const auto start = [](const std::string& water) {
+        return to_toml(genesis_of(with(
+            {"pore_fluid={}", fmt::format(R"(layer=[{{name="a", top_m=0.0, thickness_m=800.0, )"
+                                          R"(material="mat18-b"{}}}])",
+                                          water)})));
+    };
+    EXPECT_EQ(start(""), start(", permeability_m2=1e-15, porosity=0.2"));
+}
+
+TEST_F(PoreFluidRun, RefusesRockThatCannotDrain) {
+    const auto layer = [](const std::string& keys) {
+        return fmt::format(
+            R"(layer=[{{name="a", top_m=0.0, thickness_m=800.0, material="mat18-b", {}}}])", keys);
+    };
+    EXPECT_THAT(refusal({layer("permeability_m2=1e-15")}),
+                AllOf(HasSubstr("layer[0].permeability_m2"), HasSubstr("is 1e-15"),
+                      HasSubstr("add [pore_fluid]")));
+    for (const char* key : {"porosity=0.2", "permeability_ratio=2", "compressibility_per_pa=1e-10"})
+        EXPECT_THAT(refusal({"pore_fluid={}", layer(key)}),
+                    AllOf(HasSubstr("layer[0]."), HasSubstr("flows through a, and none does"),
+                          HasSubstr("permeability_m2")))
+            << key;
+    EXPECT_THAT(refusal({"pore_fluid={}", layer("permeability_m2=1e-9")}),
+                AllOf(HasSubstr("layer[0].permeability_m2"), HasSubstr("1e-09"),
+                      HasSubstr("at most 1e-12")));
+    EXPECT_THAT(refusal({"pore_fluid={}", layer("permeability_m2=1e-15, porosity=0.0")}),
+                AllOf(HasSubstr("layer[0].porosity"), HasSubstr("at least 0.01")));
+}
+
 /// Killed where water has been solved for (every 50 m) and compaction (every 25 m) has not followed
 /// it yet; what is left is the snapshot, in which pressure pushes discs.
 TEST_F(PoreFluidRun, GoesOnAfterAKillBetweenFluidAndCompaction) {

@@ -62,5 +62,20 @@ TEST(SedimentBed, LaminaeLieInSeriesAndSideBySide) {
     EXPECT_NE(to_toml(scene).find("permeability_ratio"), std::string::npos); // stands alone
 }
 
+TEST(SedimentBed, WarnsOfARatioThatLeaks) {
+    const auto warnings = [](const std::string& ratio) {
+        std::string all;
+        for (const std::string& one :
+             load_scene({.scene = "lis1-mud",
+             .set = {"bed=[{name=\"shale\", permeability_ratio=" + ratio + "}]"}})
+                 .warnings)
+            all += one;
+        return all;
+    };
+    EXPECT_EQ(warnings("1e4").find("shale"), std::string::npos);
+    EXPECT_NE(warnings("1e5").find("bed: shale conducts 1e+05 times as much along as across"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace listric::sediment_bed_test
