@@ -6,6 +6,7 @@
 #include "apps/run/forecast/oversize.hpp"
 #include "apps/scene/parameters/material_file.hpp"
 #include "apps/scene/toml/document.hpp"
+#include "apps/studies/dataset/dataset_plan.hpp"
 #include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/sweep/sweep_plan.hpp"
 #include "apps/studies/validation/validation_plan.hpp"
@@ -95,7 +96,9 @@ std::string check_sweep(const fs::path& file, Times& times) {
     const std::size_t tried = std::min(points.size(), most_tried);
     const std::vector<std::string> warnings =
         check_points(plan, std::span(points).first(tried), file);
-    const Scene scene = scene_at(plan, {}, plan.first_seed);
+    if (plan.makes_dataset)
+        load_dataset_plan(file);
+    const Scene scene = scene_at(plan, points.front(), plan.first_seed);
     const auto runs = points.size() * static_cast<std::size_t>(plan.seeds);
     std::string text = fmt::format("a sweep of {} runs", runs);
     if (tried < points.size() && plan.design != SweepDesign::list) // whose points it read

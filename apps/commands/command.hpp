@@ -44,6 +44,7 @@ Command add_laboratory(CLI::App& program);
 Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
 Command add_sweep(CLI::App& program);
+Command add_dataset(CLI::App& program);
 Command add_fit(CLI::App& program);
 Command add_schema(CLI::App& program);
 Command add_help(CLI::App& program);

@@ -160,15 +160,15 @@ std::vector<Command> add_calls(CLI::App& program) {
                    "  arguments, options and examples of a call\n"
                    "    listric help run\n"
                    "\nDocuments: README.md, docs/index.md\n");
-    return {add_new(program),        add_draw(program),      add_run(program),
-            add_check(program),      add_explain(program),   add_scenes(program),
-            add_flexure(program),    add_view(program),      add_report(program),
-            add_figures(program),    add_export(program),    add_diff(program),
-            add_cite(program),       add_trace(program),     add_sweep(program),
-            add_fit(program),        add_study(program),     add_validate(program),
-            add_laboratory(program), add_calibrate(program), add_help(program),
-            add_completion(program), add_manual(program),    add_schema(program),
-            add_bench(program)};
+    return {add_new(program),      add_draw(program),       add_run(program),
+            add_check(program),    add_explain(program),    add_scenes(program),
+            add_flexure(program),  add_view(program),       add_report(program),
+            add_figures(program),  add_export(program),     add_diff(program),
+            add_cite(program),     add_trace(program),      add_sweep(program),
+            add_dataset(program),  add_fit(program),        add_study(program),
+            add_validate(program), add_laboratory(program), add_calibrate(program),
+            add_help(program),     add_completion(program), add_manual(program),
+            add_schema(program),   add_bench(program)};
 }
 
 int program(int argc, char** argv) {

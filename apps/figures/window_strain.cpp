@@ -54,6 +54,10 @@ std::vector<double> window_strain(const Observation& now) {
     return values;
 }
 
+std::vector<double> total_strain(const Observation& now) {
+    return column(now, dem::columns::total_strain).value_or(window_strain(now));
+}
+
 Values window_tectonic_strain(const Observation& now) {
     Values values = has_ended_a_window(now)
                         ? tectonic_column(now, dem::columns::window_tectonic_strain,

@@ -13,8 +13,11 @@ namespace listric {
 /// since the start, by row. NaN: sediment that was deposited since the window began.
 std::vector<double> window_strain(const Observation& now);
 
-/// That without what settling_of() names, as pictures have it; none where an older program has left
-/// no such numbers.
+/// Shear strain of discs since the start, or since they were deposited, by row.
+std::vector<double> total_strain(const Observation& now);
+
+/// Strain of the window without what settling_of() names, as pictures have it; none where an older
+/// program has left no such numbers.
 std::optional<std::vector<double>> window_tectonic_strain(const Observation& now);
 
 /// All strains that a moment knows, by the names of their columns; those without settling where

@@ -17,6 +17,9 @@ namespace listric {
 /// More runs than anybody makes.
 inline constexpr int most_runs = 100'000;
 
+/// Table of a sweep's plan that makes a data set of its runs; a sweep passes over it.
+inline constexpr const char* dataset_table = "dataset";
+
 /// The plan of that name that the program ships. Throws SceneError.
 toml::table study_plan(const std::string& name);
 

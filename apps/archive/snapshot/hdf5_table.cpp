@@ -149,6 +149,8 @@ template <class T> hid_t hdf5_type() {
         return H5T_NATIVE_INT64;
     else if constexpr (std::is_same_v<T, std::int32_t>)
         return H5T_NATIVE_INT32;
+    else if constexpr (std::is_same_v<T, std::int16_t>)
+        return H5T_NATIVE_INT16;
     else
         return H5T_NATIVE_UINT8;
 }
@@ -317,6 +319,26 @@ template <class T> Column read_values(hid_t set, const std::string& name, std::s
 }
 
 } // namespace
+
+template <class T>
+void write_matrix(Hdf5Id group, const char* name, std::span<const T> values, std::size_t columns) {
+    const hsize_t size[] = {values.size() / columns, columns};
+    const std::string what = std::string("cannot write the matrix ") + name;
+    const Handle space(H5Screate_simple(2, size, nullptr), H5Sclose, what);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+    check(H5Pset_obj_track_times(properties, false), what); // equal files of equal values
+    check(H5Pset_chunk(properties, 2, size), what);
+    check(H5Pset_shuffle(properties), what);
+    check(H5Pset_deflate(properties, 6), what);
+    const Handle set(
+        H5Dcreate2(group, name, hdf5_type<T>(), space, H5P_DEFAULT, properties, H5P_DEFAULT),
+        H5Dclose, what);
+    check(H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+}
+
+template void write_matrix(Hdf5Id, const char*, std::span<const float>, std::size_t);
+template void write_matrix(Hdf5Id, const char*, std::span<const std::int16_t>, std::size_t);
+template void write_matrix(Hdf5Id, const char*, std::span<const std::uint8_t>, std::size_t);
 
 void write_table(Hdf5Id group, const Table& table) {
     write_number(group, "rows", static_cast<std::int64_t>(table.rows()));

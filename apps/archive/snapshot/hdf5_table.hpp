@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,11 @@ template <class T> T read_number(Hdf5Id object, const char* name);
 
 /// Names of a group's own attributes, sorted.
 std::vector<std::string> attributes_of(Hdf5Id object);
+
+/// Rows of a matrix as a dataset of two dimensions, compressed: a float, std::int16_t or
+/// std::uint8_t.
+template <class T>
+void write_matrix(Hdf5Id group, const char* name, std::span<const T> values, std::size_t columns);
 
 /// A table's columns as datasets in `group`, with unit, initial value and position.
 void write_table(Hdf5Id group, const dem::Table& table);

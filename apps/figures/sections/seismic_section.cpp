@@ -82,15 +82,21 @@ std::optional<double> height_of(std::span<const Polyline> lines, double x) {
     return highest;
 }
 
+/// Thickness of layers of pre-rift rock, m.
+double pre_rift_layer(double wanted) {
+    return wanted > 0.0 ? wanted : vocabulary().at("pre_rift").at("layer_m").get<double>();
+}
+
 /// Columns of the section from the top down, as layers of rock.
 class Rays {
 public:
-    Rays(const Observation& now, std::span<const Horizon> horizons, const SeismicLaw& law,
+    Rays(const Observation& now, std::span<const Horizon> horizons, const SeismicOptions& options,
          double spacing)
-        : law_(law), horizons_(horizons.begin(), horizons.end()),
+        : law_(options.law), contrast_seed_(options.contrast_seed),
+          horizons_(horizons.begin(), horizons.end()),
           room_(archive::make_setting(now.scene, now.parts), now.parts.base, now.state),
           map_(now.state, room_, spacing), porosity_(sediment_porosity(now, map_)),
-          rock_(rocks(now.state)), layer_(vocabulary().at("pre_rift").at("layer_m").get<double>()) {
+          rock_(rocks(now.state)), layer_(pre_rift_layer(options.pre_rift_layer)) {
         std::ranges::sort(horizons_, {}, &Horizon::stratum);
         for (const Horizon& horizon : horizons_)
             for (const Polyline& line : horizon.top)
@@ -130,6 +136,22 @@ public:
         return layers;
     }
 
+    /// Numbers of the layers at heights of a column; of air that of the topmost.
+    template <class Height>
+    void layers_at(double x, std::span<std::int16_t> numbers, Height&& height) const {
+        const std::vector<double> tops = tops_at(x);
+        const double floor = height_at(room_.floor, x);
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const double y = height(k);
+            std::size_t n = 0;
+            while (n + 1 < tops.size() && tops[n] < y)
+                ++n;
+            numbers[k] = y < floor || tops.empty()
+                             ? SeismicSection::below_rock
+                             : static_cast<std::int16_t>(horizons_[n].stratum);
+        }
+    }
+
     /// y of the topmost rock.
     double ground(double x) const {
         const std::vector<double> tops = tops_at(x);
@@ -162,10 +184,20 @@ private:
             saturated_rock(law_, stratum > 0 ? porosity
                                              : pre_rift_porosity *
                                                    dem::exponential(-porosity_decay_per_m * depth));
-        rock.velocity *= stratum % 2 == 0 ? 1.0 + law_.contrast : 1.0 - law_.contrast;
+        rock.velocity *= 1.0 + law_.contrast * contrast_of(stratum);
         if (is_weak)
             rock.velocity *= law_.weak_factor;
         return rock;
+    }
+
+    /// In units of the law's.
+    double contrast_of(int stratum) const {
+        constexpr double most = 2.5; // standard deviations
+        if (!contrast_seed_)
+            return stratum % 2 == 0 ? 1.0 : -1.0;
+        return std::clamp(dem::normal(*contrast_seed_, purposes::seismic_contrast,
+                                      static_cast<std::uint64_t>(stratum)),
+                          -most, most);
     }
 
     /// Rock that hardly differs from the layer above belongs to it: gradients become steps that
@@ -179,6 +211,7 @@ private:
     }
 
     SeismicLaw law_;
+    std::optional<std::uint64_t> contrast_seed_;
     std::vector<Horizon> horizons_; ///< oldest first
     RockSpace room_;
     OwnerMap map_;
@@ -255,92 +288,29 @@ double depth_at(std::span<const Reflection> boundaries, double time, double last
     return from + 0.5 * velocity * (time - since);
 }
 
-/// Two-way time from the top to the original surface in every trace, s.
-std::vector<double> zero_times(const SeismicSection& section,
-                               const std::vector<std::vector<Reflection>>& boundaries,
-                               double last) {
-    std::vector<double> times;
-    for (const std::vector<Reflection>& ray : boundaries)
-        times.push_back(time_at(ray, section.top, last));
-    return times;
-}
-
 /// An interval with a whole number of a unit, such as micro for 1e6, in which a file's header has
 /// it.
 double whole(double interval, double per_unit) {
     return std::max(std::round(per_unit * interval), 1.0) / per_unit;
 }
 
-} // namespace
-
-SeismicSection seismic_section(const Observation& now, std::span<const Fault> faults,
-                               std::span<const Horizon> horizons, const SeismicOptions& wanted) {
-    SeismicSection section{.options = wanted};
-    SeismicOptions& options = section.options;
-    const double thickness = now.scene.hanging_wall.thickness;
-    const Rays rays(now, horizons, options.law,
-                    std::max(0.25 * now.state.mean_radius, thickness / 1500.0));
+/// What is known at every sample: strain of the last window, faults and layers.
+void add_labels(SeismicSection& section, const Observation& now, const Rays& rays,
+                std::span<const Fault> faults) {
     const OwnerMap& map = rays.map();
-    section.top = rays.top();
-    if (options.trace_spacing <= 0.0)
-        options.trace_spacing = map.spacing;
-    if (options.sample_interval <= 0.0)
-        options.sample_interval = whole(
-            0.1 / options.frequency * (options.in_depth ? 0.5 * options.law.fluid_velocity : 1.0),
-            options.in_depth ? 1e3 : 1e6);
-    section.first_x = std::max(rays.room().left, 0.0) + 0.5 * options.trace_spacing;
-    section.traces = static_cast<std::size_t>(
-        std::max((rays.room().right - section.first_x) / options.trace_spacing + 1.0, 1.0));
-    std::vector<std::vector<Reflection>> boundaries(section.traces);
-    for_each_shared(section.traces,
-                    [&](std::size_t k) { boundaries[k] = reflections(rays.at(section.x(k))); });
-    for (std::size_t k = 0; k < section.traces; ++k)
-        section.ground.push_back(rays.ground(section.x(k)));
-    const double last = saturated_rock(options.law, 0.0).velocity;
-    const std::vector<double> zero = zero_times(section, boundaries, last);
-    double rise = 0.0; // of the topmost rock above the original surface, s
-    for (std::size_t k = 0; k < section.traces; ++k)
-        rise =
-            std::max(rise, zero[k] - time_at(boundaries[k], section.top - section.ground[k], last));
-    section.first_sample = 0.0 - (options.in_depth ? section.top : 1e-3 * std::ceil(1e3 * rise));
-    double end = 0.0;
-    for (std::size_t k = 0; k < section.traces; ++k)
-        if (const auto& ray = boundaries[k]; !ray.empty())
-            end = std::max(end, options.in_depth ? ray.back().depth - section.top
-                                                 : ray.back().time - zero[k]);
-    end += (options.in_depth ? 500.0 : 3.0 / options.frequency) - section.first_sample;
-    section.samples = static_cast<std::size_t>(std::ceil(end / options.sample_interval)) + 1;
-    section.amplitude.assign(section.traces * section.samples, 0.0f);
-    for_each_shared(section.traces, [&](std::size_t k) {
-        const std::span<float> trace(section.amplitude.data() + k * section.samples,
-                                     section.samples);
-        if (options.in_depth) {
-            add_reflections_in_depth(trace, options.sample_interval, boundaries[k], last,
-                                     options.frequency);
-            return;
-        }
-        std::vector<Reflection> since_first = boundaries[k];
-        for (Reflection& r : since_first)
-            r.time -= zero[k] + section.first_sample;
-        add_reflections(trace, options.sample_interval, since_first, options.frequency);
-    });
-    if (options.lateral > 0.0)
-        blur(section);
-    if (!options.has_labels)
-        return section;
-    const std::vector<double> strain = window_strain(now);
+    const std::vector<double> strain =
+        section.options.total_strain ? total_strain(now) : window_strain(now);
     const std::vector<bool> near = near_faults(map, faults, 2.0 * now.state.mean_radius);
     section.strain.assign(section.amplitude.size(), std::numeric_limits<float>::quiet_NaN());
     section.fault.assign(section.amplitude.size(), 0);
+    section.layer.assign(section.amplitude.size(), SeismicSection::below_rock);
     for (std::size_t trace = 0; trace < section.traces; ++trace) {
         const std::size_t column = rays.column_of(section.x(trace));
+        rays.layers_at(section.x(trace),
+                       std::span(section.layer).subspan(trace * section.samples, section.samples),
+                       [&](std::size_t k) { return section.height(trace, k); });
         for (std::size_t k = 0; k < section.samples; ++k) {
-            const double depth =
-                options.in_depth
-                    ? section.sample(k)
-                    : depth_at(boundaries[trace], section.sample(k) + zero[trace], last) -
-                          section.top;
-            const double row = std::round((0.0 - depth - map.corner.y) / map.spacing);
+            const double row = std::round((section.height(trace, k) - map.corner.y) / map.spacing);
             if (row < 0.0 || row >= static_cast<double>(map.rows))
                 continue;
             const std::size_t at = static_cast<std::size_t>(row) * map.columns + column;
@@ -351,13 +321,88 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
             section.fault[trace * section.samples + k] = near[at];
         }
     }
+}
+
+/// First sample and number of samples, by the highest rock and the last reflection.
+void measure_traces(SeismicSection& section) {
+    const SeismicOptions& options = section.options;
+    double rise = 0.0; // of the topmost rock above the original surface, s
+    for (std::size_t k = 0; k < section.traces; ++k)
+        rise = std::max(rise,
+                        section.zero[k] - time_at(section.rays[k], section.top - section.ground[k],
+                                                  section.last_velocity));
+    section.first_sample = 0.0 - (options.in_depth ? section.top : 1e-3 * std::ceil(1e3 * rise));
+    double end = 0.0;
+    for (std::size_t k = 0; k < section.traces; ++k)
+        if (const auto& ray = section.rays[k]; !ray.empty())
+            end = std::max(end, options.in_depth ? ray.back().depth - section.top
+                                                 : ray.back().time - section.zero[k]);
+    end += (options.in_depth ? 500.0 : 3.0 / options.frequency) - section.first_sample;
+    section.samples = static_cast<std::size_t>(std::ceil(end / options.sample_interval)) + 1;
+}
+
+} // namespace
+
+double SeismicSection::height(std::size_t trace, std::size_t k) const {
+    return options.in_depth ? 0.0 - sample(k)
+                            : top - depth_at(rays[trace], sample(k) + zero[trace], last_velocity);
+}
+
+double SeismicSection::sample_at(std::size_t trace, double y) const {
+    const double place =
+        options.in_depth ? -y : time_at(rays[trace], top - y, last_velocity) - zero[trace];
+    return (place - first_sample) / options.sample_interval;
+}
+
+SeismicSection seismic_section(const Observation& now, std::span<const Fault> faults,
+                               std::span<const Horizon> horizons, const SeismicOptions& wanted) {
+    SeismicSection section{.options = wanted};
+    SeismicOptions& options = section.options;
+    const double thickness = now.scene.hanging_wall.thickness;
+    const Rays rays(now, horizons, options,
+                    std::max(0.25 * now.state.mean_radius, thickness / 1500.0));
+    section.top = rays.top();
+    if (options.trace_spacing <= 0.0)
+        options.trace_spacing = rays.map().spacing;
+    if (options.sample_interval <= 0.0)
+        options.sample_interval = whole(
+            0.1 / options.frequency * (options.in_depth ? 0.5 * options.law.fluid_velocity : 1.0),
+            options.in_depth ? 1e3 : 1e6);
+    section.first_x = std::max(rays.room().left, 0.0) + 0.5 * options.trace_spacing;
+    section.traces = static_cast<std::size_t>(
+        std::max((rays.room().right - section.first_x) / options.trace_spacing + 1.0, 1.0));
+    section.rays.resize(section.traces);
+    for_each_shared(section.traces,
+                    [&](std::size_t k) { section.rays[k] = reflections(rays.at(section.x(k))); });
+    section.last_velocity = saturated_rock(options.law, 0.0).velocity;
+    for (std::size_t k = 0; k < section.traces; ++k) {
+        section.ground.push_back(rays.ground(section.x(k)));
+        section.zero.push_back(time_at(section.rays[k], section.top, section.last_velocity));
+    }
+    measure_traces(section);
+    section.amplitude.assign(section.traces * section.samples, 0.0f);
+    const Wavelet wavelet{options.frequency, options.quality};
+    for_each_shared(section.traces, [&](std::size_t k) {
+        const std::span<float> trace(section.amplitude.data() + k * section.samples,
+                                     section.samples);
+        if (options.in_depth)
+            add_reflections_in_depth(trace, options.sample_interval, section.rays[k],
+                                     section.last_velocity, wavelet);
+        else
+            add_reflections(trace, options.sample_interval, section.rays[k], wavelet,
+                            section.zero[k] + section.first_sample);
+    });
+    if (options.lateral > 0.0)
+        blur(section);
+    if (options.has_labels)
+        add_labels(section, now, rays, faults);
     return section;
 }
 
-std::vector<Horizon> seismic_horizons(const Observation& now) {
+std::vector<Horizon> seismic_horizons(const Observation& now, double wanted) {
     Setting setting = archive::make_setting(now.scene, now.parts);
     setting.boundaries.clear(); // rock's velocity is by its depth at the start, whatever its layer
-    return trace_horizons(setting, now.parts.base, now.state, {});
+    return trace_horizons(setting, now.parts.base, now.state, {}, {pre_rift_layer(wanted)});
 }
 
 std::vector<Horizon> seismic_horizons(const Observation& now, std::vector<Horizon> traced) {

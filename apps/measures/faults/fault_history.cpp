@@ -22,10 +22,6 @@ using namespace dem;
 
 namespace {
 
-/// Faults are looked for in units of a mean disc's diameter, or of this share of the hanging wall's
-/// thickness if that is more: a standard disc of 15 km.
-constexpr double coarsest_unit = 0.0124;
-
 constexpr std::size_t fewest_points = 8; ///< of a trace that is followed back
 
 /// Without std::hypot, which half of the time went into.
@@ -370,7 +366,7 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         return report;
     const Chain detachment = standing_base(base, now).surfaces.front().chain;
     const double diameter = 2.0 * now.mean_radius;
-    const double unit = std::max(diameter, coarsest_unit * setting.thickness);
+    const double unit = unit_of_faults(diameter, setting.thickness);
     const DiscPlaces discs(now);
     ShearField field = shear_field(older.back(), discs,
                                    setting.way_of_loose_sediment(now.clock.travel), setting.motion);

@@ -4,6 +4,7 @@
 #include "dem/numbers/gradient.hpp"
 #include "dem/threads/shared_loop.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace listric::measures {
@@ -72,6 +73,11 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
         for (; i < end; ++i)
             fit_one(i);
     });
+}
+
+double unit_of_faults(double diameter, double thickness) {
+    constexpr double coarsest = 0.0124; // of the thickness: a standard disc of 15 km
+    return std::max(diameter, coarsest * thickness);
 }
 
 void coarsen(ShearField& field, double unit) {

@@ -65,6 +65,10 @@ struct ShearField {
 /// displacements, too.
 void fit_gradients(ShearField& field, std::span<const double> old_x, std::span<const double> old_y);
 
+/// Unit of lengths in which faults are looked for: a mean disc's diameter, or that of a standard
+/// disc in a hanging wall of that thickness if it is more, m.
+double unit_of_faults(double diameter, double thickness);
+
 /// Lets the field be looked at in units of at least `unit` m instead of a disc's diameter: among
 /// small discs a fault is a zone of tens of them, whose width is no matter of theirs.
 void coarsen(ShearField& field, double unit);

@@ -41,17 +41,27 @@ double ricker(double time, double frequency) {
 
 double ricker_period(double frequency) { return std::sqrt(6.0) / (dem::pi * frequency); }
 
+double Wavelet::frequency_at(double time) const {
+    if (!(quality > 0.0))
+        return frequency;
+    // The highest place of f^2 exp(-f^2 / f0^2 - pi f t / Q).
+    const double loss = 0.25 * dem::pi * std::max(time, 0.0) / quality;
+    return frequency * frequency * (std::sqrt(loss * loss + 1.0 / (frequency * frequency)) - loss);
+}
+
 void add_reflections(std::span<float> trace, double interval,
-                     std::span<const Reflection> reflections, double frequency) {
-    assert(interval > 0.0 && frequency > 0.0);
-    const double reach = reach_in_periods * ricker_period(frequency);
+                     std::span<const Reflection> reflections, const Wavelet& wavelet,
+                     double start) {
+    assert(interval > 0.0 && wavelet.frequency > 0.0);
     const auto last = static_cast<double>(trace.size()) - 1.0;
     for (const Reflection& r : reflections) {
-        const double from = std::max(std::ceil((r.time - reach) / interval), 0.0);
-        const double to = std::min(std::floor((r.time + reach) / interval), last);
+        const double frequency = wavelet.frequency_at(r.time), time = r.time - start;
+        const double reach = reach_in_periods * ricker_period(frequency);
+        const double from = std::max(std::ceil((time - reach) / interval), 0.0);
+        const double to = std::min(std::floor((time + reach) / interval), last);
         for (double sample = from; sample <= to; sample += 1.0)
             trace[static_cast<std::size_t>(sample)] +=
-                static_cast<float>(r.coefficient * ricker(sample * interval - r.time, frequency));
+                static_cast<float>(r.coefficient * ricker(sample * interval - time, frequency));
     }
 }
 
@@ -66,9 +76,12 @@ double time_at(std::span<const Reflection> reflections, double depth, double las
 
 void add_reflections_in_depth(std::span<float> trace, double interval,
                               std::span<const Reflection> reflections, double last,
-                              double frequency) {
-    assert(interval > 0.0 && frequency > 0.0);
-    const double reach = reach_in_periods * ricker_period(frequency);
+                              const Wavelet& wavelet) {
+    assert(interval > 0.0 && wavelet.frequency > 0.0);
+    // The latest wavelet is the longest.
+    const double reach =
+        reach_in_periods *
+        ricker_period(wavelet.frequency_at(reflections.empty() ? 0.0 : reflections.back().time));
     std::size_t first = 0; // reflection within reach of the sample
     for (std::size_t k = 0; k < trace.size(); ++k) {
         const double time = time_at(reflections, interval * static_cast<double>(k), last);
@@ -77,7 +90,8 @@ void add_reflections_in_depth(std::span<float> trace, double interval,
         double sum = 0.0;
         for (std::size_t n = first; n < reflections.size() && reflections[n].time <= time + reach;
              ++n)
-            sum += reflections[n].coefficient * ricker(time - reflections[n].time, frequency);
+            sum += reflections[n].coefficient *
+                   ricker(time - reflections[n].time, wavelet.frequency_at(reflections[n].time));
         trace[k] += static_cast<float>(sum);
     }
 }

@@ -58,9 +58,21 @@ double ricker(double time, double frequency);
 /// 1035-1046; Chung & Lawton 1995, Geophysics 60, 823-829).
 double ricker_period(double frequency);
 
+/// Ricker's wavelet on its way through rock that takes high frequencies.
+struct Wavelet {
+    double frequency = 25.0; ///< at which its spectrum is highest at first, Hz
+    double quality = 0.0;    ///< cycles over 2 pi in which a share of 1/e is lost; 0: no loss
+
+    /// Where its spectrum is highest after a two-way time, Hz: it falls, and the wavelet is
+    /// stretched (Zhang & Ulrych 2002, Geophysics 67, 1542-1547). Its height is kept.
+    double frequency_at(double time) const;
+};
+
 /// Adds every reflection's wavelet to a trace whose samples are `interval` s apart, from 0.
+/// @param start  two-way time of the first sample from where the reflections' times count, s
 void add_reflections(std::span<float> trace, double interval,
-                     std::span<const Reflection> reflections, double frequency);
+                     std::span<const Reflection> reflections, const Wavelet& wavelet,
+                     double start = 0.0);
 
 /// Two-way time at a depth below the datum, s, in layers whose boundaries are given.
 /// @param last  velocity below the last boundary, m/s
@@ -70,6 +82,6 @@ double time_at(std::span<const Reflection> reflections, double depth, double las
 /// at its two-way time.
 void add_reflections_in_depth(std::span<float> trace, double interval,
                               std::span<const Reflection> reflections, double last,
-                              double frequency);
+                              const Wavelet& wavelet);
 
 } // namespace listric::measures

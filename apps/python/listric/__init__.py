@@ -10,6 +10,7 @@ wall. Columns of snapshots are those of the file, bit for bit: there y points up
 surface. All else that has a depth has it positive down. docs/guides/python.md says more.
 """
 
+from .dataset import Dataset
 from .errors import BadValue, ListricError, ProgramError, RunError, UnknownName
 from .picture import Picture
 from .program import call, find_program, simulate
@@ -18,5 +19,5 @@ from .run import Run
 from .snapshot import Snapshot
 from .table import Column, Table
 
-__all__ = ["BadValue", "Column", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
+__all__ = ["BadValue", "Column", "Dataset", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
            "Table", "UnknownName", "call", "find_program", "simulate"]

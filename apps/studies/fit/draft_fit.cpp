@@ -1,6 +1,7 @@
 #include "apps/studies/fit/draft_fit.hpp"
 
 #include "apps/studies/least_squares.hpp"
+#include "apps/support/words/number.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -179,10 +180,11 @@ SweepPlan plan_of_shapes(const SweepPlan& common, std::span<const ListricShape> 
         plan.parameters.emplace_back();
         plan.parameters.back().name = name;
     }
-    const auto number = [](double value) {
-        const std::string text = fmt::format("{:.3f}", value);
-        return SweepValue{text, text, value};
+    const auto add = [&](std::size_t k, const std::string& text, const std::string& value) {
+        SweepParameter& parameter = plan.parameters[k];
+        parameter.values.push_back({text, {parameter.name + "=" + value}, parse_number(value)});
     };
+    const auto number = [](double value) { return fmt::format("{:.3f}", value); };
     for (const ListricShape& shape : shapes) {
         std::string pieces;
         for (const dem::DetachmentSegment& piece : detachment_of(shape).segments)
@@ -190,9 +192,9 @@ SweepPlan plan_of_shapes(const SweepPlan& common, std::span<const ListricShape> 
                           ? fmt::format("{{arc = {{radius_m = {:.3f}, end_dip_deg = {:.1f}}}}}, ",
                                         piece.radius, piece.end_dip)
                           : fmt::format("{{line = {{length_m = {:.3f}}}}}, ", piece.length);
-        plan.parameters[0].values.push_back(number(shape.dip));
-        plan.parameters[1].values.push_back({pieces, "[" + pieces + "]", std::nullopt});
-        plan.parameters[2].values.push_back(number(shape.depth));
+        add(0, number(shape.dip), number(shape.dip));
+        add(1, pieces, "[" + pieces + "]");
+        add(2, number(shape.depth), number(shape.depth));
     }
     return plan;
 }

@@ -69,8 +69,9 @@ std::vector<std::string> call_of(const SweepPlan& plan, const SweepPoint& point,
         add("--accuracy", plan.accuracy);
     for (const std::string& change : plan.set)
         add("--set", change);
-    for (std::size_t k = 0; k < point.size(); ++k)
-        add("--set", plan.parameters[k].name + "=" + point[k].toml);
+    for (const SweepValue& value : point)
+        for (const std::string& change : value.changes)
+            add("--set", change);
     for (const std::string& table : plan.without)
         add("--without", table);
     add("--seed", std::to_string(row.seed));

@@ -5,6 +5,7 @@
 #include "apps/run/forecast/oversize.hpp"
 #include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
+#include "apps/studies/dataset/dataset_plan.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"
@@ -54,33 +55,34 @@ PlanTable<SweepPlanText> plan_table() {
          plan_key("samples", at<&T::plan, &P::samples>, "number of points of a Latin hypercube",
                   between(0, most))},
         {},
-        {"measures", "vary"}};
+        {"measures", "vary", dataset_table}};
 }
 
 PlanTable<SweepParameter> varied_table() {
     return {"parameters that vary",
             {plan_key("parameter", at<&SweepParameter::name>, "table.key of what varies")},
             {"parameter"},
-            {"values", "range"}};
+            {"values", "range", "sets"}};
 }
 
-SweepValue value_of(const Entry& entry) {
+/// @param name  of the parameter
+SweepValue value_of(const Entry& entry, const std::string& name) {
     if (const auto* word = entry.node.as_string()) {
         if (word->get().find_first_of(",\"") != std::string::npos ||
             shown(word->get()) != word->get())
             fail(entry,
                  "a comma, a quotation mark or a control character does not fit into a table");
-        return {word->get(), quoted(word->get()), std::nullopt};
+        return {word->get(), {name + "=" + quoted(word->get())}, std::nullopt};
     }
     if (const auto* yes = entry.node.as_boolean()) {
         const std::string text = yes->get() ? "true" : "false";
-        return {text, text, std::nullopt};
+        return {text, {name + "=" + text}, std::nullopt};
     }
     const auto number = entry.node.value<double>();
     if (!entry.node.is_number() || !number || !std::isfinite(*number))
         fail_type(entry, "a number, a string, true or false");
     const std::string text = fmt::format("{}", *number);
-    return {text, text, number};
+    return {text, {name + "=" + text}, number};
 }
 
 /// The elements of an array.
@@ -94,13 +96,13 @@ std::vector<Entry> elements(const Entry& entry, std::string_view allowed) {
 }
 
 /// A value between the ends of a range, in six digits, or in as many more as a narrow range has.
-SweepValue value_between(std::pair<double, double> ends, double share) {
-    const auto [least, greatest] = ends;
+SweepValue value_between(const SweepParameter& parameter, double share) {
+    const auto [least, greatest] = *parameter.range;
     const double narrowness = std::max(-least, greatest) / (greatest - least);
     const int digits =
         6 + static_cast<int>(dem::logarithm_to_base_10(std::clamp(narrowness, 1.0, 1e11)));
     const std::string text = fmt::format("{:.{}g}", std::lerp(least, greatest, share), digits);
-    return {text, text, parse_number(text)};
+    return {text, {parameter.name + "=" + text}, parse_number(text)};
 }
 
 /// Refuses a parameter that the plan itself sets for every run.
@@ -134,6 +136,26 @@ std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepPara
     }
 }
 
+/// Takes what each value of a parameter changes from `sets`; the parameter is then a word of the
+/// plan's.
+void take_changes(const Entry& sets, SweepParameter& parameter) {
+    const std::vector<Entry> given = elements(sets, "an array of texts, changes for each value");
+    if (given.size() != parameter.values.size())
+        fail(sets, fmt::format("needs as many texts as there are values, {}; it has {}",
+                               parameter.values.size(), given.size()));
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        const auto* const text = given[k].node.as_string();
+        if (!text)
+            fail_type(given[k], "a text, changes such as \"detachment.friction=0.2\"");
+        parameter.values[k].changes = words(text->get());
+        for (const std::string& word : parameter.values[k].changes)
+            if (word.starts_with("seed="))
+                fail(given[k], fmt::format("{}: every run has a seed of the plan's; give seeds and "
+                                           "first_seed",
+                                           word));
+    }
+}
+
 SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     SweepParameter parameter = varied_table().read(entry);
     check_parameter(entry, plan, parameter.name);
@@ -141,6 +163,8 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     const bool is_range = table.contains("range");
     if (is_range == table.contains("values"))
         fail(entry, "needs either values or range");
+    if (is_range && table.contains("sets"))
+        fail({*table.get("sets"), entry.path + ".sets"}, "is for values; a range needs none");
     const char* const key = is_range ? "range" : "values";
     const Entry list{*table.get(key), fmt::format("{}.{}", entry.path, key)};
     if (is_range && plan.design != SweepDesign::latin_hypercube)
@@ -151,7 +175,10 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
         fail(list, "needs two numbers, [least, greatest]");
     if (given.empty())
         fail(list, "is empty, needs at least one value");
-    std::ranges::transform(given, std::back_inserter(parameter.values), value_of);
+    for (const Entry& value : given)
+        parameter.values.push_back(value_of(value, parameter.name));
+    if (const toml::node* const sets = table.get("sets"))
+        take_changes({*sets, entry.path + ".sets"}, parameter);
     if (is_range) {
         const auto least = parameter.values[0].number, greatest = parameter.values[1].number;
         if (!least || !greatest || !(*least < *greatest))
@@ -171,7 +198,7 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
                                              earlier->second, parameter.name));
     }
     if (is_range) {
-        try_value(plan, list, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
+        try_value(plan, list, parameter, value_between(parameter, 1.0 / std::numbers::pi),
                   "; a range takes values between its ends, values = [...] only those listed");
         parameter.values.clear();
     }
@@ -305,10 +332,18 @@ std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
 } // namespace
 
 bool SweepPlan::needs_moments() const {
-    return std::ranges::any_of(measures, [](const SweepMeasure& m) { return m.at.has_value(); });
+    return makes_dataset ||
+           std::ranges::any_of(measures, [](const SweepMeasure& m) { return m.at.has_value(); });
 }
 
-SweepPlan load_sweep_plan(const std::filesystem::path& file) {
+std::filesystem::path plan_file(const std::filesystem::path& name_or_path) {
+    const std::string given = name_or_path.string();
+    return is_path(given) || std::filesystem::exists(name_or_path) ? name_or_path
+                                                                   : shelf.find(given);
+}
+
+SweepPlan load_sweep_plan(const std::filesystem::path& name_or_path) {
+    const std::filesystem::path file = plan_file(name_or_path);
     const toml::table document = read_document(shelf, file);
     const Entry top{document, ""};
     SweepPlanText text = plan_table().read(top);
@@ -351,6 +386,7 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
         plan.parameters.push_back(parameter);
     }
     check_design(top, plan);
+    plan.makes_dataset = document.contains(dataset_table);
     return plan;
 }
 
@@ -385,7 +421,7 @@ std::vector<SweepPoint> sweep_points(const SweepPlan& plan) {
             const double share =
                 (static_cast<double>(place[k]) + 0.5) / static_cast<double>(points.size());
             points[k].push_back(parameter.range
-                                    ? value_between(*parameter.range, share)
+                                    ? value_between(parameter, share)
                                     : parameter.values[static_cast<std::size_t>(
                                           share * static_cast<double>(parameter.values.size()))]);
         }
@@ -423,7 +459,7 @@ Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed
     if (!plan.accuracy.empty())
         request.accuracy = plan.accuracy;
     for (std::size_t k = 0; k < point.size(); ++k)
-        request.set.push_back(plan.parameters[k].name + "=" + point[k].toml);
+        request.set.insert(request.set.end(), point[k].changes.begin(), point[k].changes.end());
     return load_scene(request);
 }
 
@@ -440,11 +476,14 @@ std::string sweep_schema() {
     properties["range"] =
         at_least(array_of("least and greatest, for a Latin hypercube", {{"type", "number"}}), 2);
     properties["range"]["maxItems"] = 2;
+    properties["sets"] = array_of("changes of the scene that each value stands for, as in set",
+                                  {{"type", "string"}});
     varied["oneOf"] = Json::array({{{"required", {"values"}}}, {{"required", {"range"}}}});
 
     Json schema = plan_table().schema();
     schema["properties"]["measures"] =
         at_least(array_of("measures of every run", measure_schema(MeasuredAt::end_or_snapshot)), 0);
+    schema["properties"][dataset_table] = dataset_schema();
     schema["properties"]["vary"] = at_least(array_of(varied_table().doc, varied), 1);
     schema["required"] = {"scene", "measures", "vary"};
     return finished_schema("A sweep plan of Listric", schema);

@@ -22,14 +22,14 @@ enum class SweepDesign {
 
 /// A value of a parameter.
 struct SweepValue {
-    std::string text;             ///< in tables
-    std::string toml;             ///< in a scene
-    std::optional<double> number; ///< if it is one
+    std::string text;                 ///< in tables
+    std::vector<std::string> changes; ///< of a scene, "table.key=value"
+    std::optional<double> number;     ///< if it is one
 };
 
 /// A parameter that varies.
 struct SweepParameter {
-    std::string name;                               ///< table.key
+    std::string name; ///< table.key, or a word of the plan's for values that are several changes
     std::vector<SweepValue> values = {};            ///< or else
     std::optional<std::pair<double, double>> range; ///< least and greatest
 };
@@ -50,13 +50,17 @@ struct SweepPlan {
     int samples = 0; ///< of a Latin hypercube
     std::vector<SweepParameter> parameters;
     std::vector<SweepMeasure> measures;
+    bool makes_dataset = false; ///< it has [dataset], which looks at the faults of all windows
 
-    /// Whether a measure is of a moment before the end, for which all snapshots are read.
+    /// Whether something is of a moment before the end, for which all snapshots are read.
     bool needs_moments() const;
 };
 
+/// The file of a plan, by its path or, of a shipped one, its name. Throws SceneError.
+std::filesystem::path plan_file(const std::filesystem::path& name_or_path);
+
 /// Reads a plan and tries every value in the scene, of a list every point. Throws SceneError.
-SweepPlan load_sweep_plan(const std::filesystem::path& file);
+SweepPlan load_sweep_plan(const std::filesystem::path& name_or_path);
 
 /// The values of every run, seeds apart, in the order of the parameters.
 using SweepPoint = std::vector<SweepValue>;

@@ -6,6 +6,7 @@
 // diameter. A dip over L diameters is then off by less than atan(1 / L).
 
 #include "apps/measures/faults/fault_history.hpp"
+#include "apps/measures/faults/fault_offset.hpp"
 #include "apps/measures/faults/fault_throw.hpp"
 #include "apps/measures/faults/fault_trace.hpp"
 #include "apps/measures/strata/rock.hpp"
@@ -402,6 +403,32 @@ TEST(FaultHistory, NothingBeforeTheFirstWindow) {
     const Story story(1, 1, 0.0);
     EXPECT_TRUE(report_faults(story.setting, story.base, story.now, std::span<const DiscPlaces>())
                     .faults.empty());
+}
+
+// The fault slides by 250 m in its last three windows but one and rests in the last: its trace of
+// the window before is carried on, and its offset is all of the slip. The zone is three diameters
+// wide, so that some of the slip lies beyond where the blocks begin: 4 % for each.
+TEST(OffsetFaults, OfRestingOnesStayWithAllTheirSlip) {
+    const Story story(6, 3, 0.0, 6);
+    EXPECT_TRUE(story.report().faults.empty());
+    const auto faults = offset_faults(story.setting, story.base, story.now, story.places);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_FALSE(faults[0].is_active);
+    const std::size_t middle_point = faults[0].points.size() / 2;
+    EXPECT_NEAR(faults[0].offset[middle_point], 3.0 * 250.0 * std::sin(60.0 * degree),
+                0.08 * 650.0);
+    EXPECT_NEAR(dip_of(faults[0].points), 60.0, 2.0);
+    // It passes where the footwall has gone: 500 m a window from the middle.
+    EXPECT_LT(std::abs(place_on(faults[0].points, {middle.x + 6.0 * 500.0, middle.y}).distance),
+              1.5 * d);
+}
+
+TEST(OffsetFaults, OneThatIsActiveStandsOnceForAllItsWindows) {
+    const Story story(6, 1, 2.0);
+    const auto faults = offset_faults(story.setting, story.base, story.now, story.places);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_TRUE(faults[0].is_active);
+    EXPECT_TRUE(offset_faults(story.setting, story.base, story.now, {}).empty());
 }
 
 TEST(WeakOffFaults, ByAreaAndDistance) {

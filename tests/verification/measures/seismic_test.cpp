@@ -22,7 +22,7 @@ constexpr double frequency = 25.0; // Hz
 std::vector<float> trace_of(const std::vector<SeismicLayer>& layers, double interval,
                             double seconds) {
     std::vector<float> trace(static_cast<std::size_t>(seconds / interval));
-    add_reflections(trace, interval, reflections(layers), frequency);
+    add_reflections(trace, interval, reflections(layers), {frequency});
     return trace;
 }
 
@@ -74,7 +74,7 @@ TEST(Seismic, InDepthFlatLayersReflectAtTheirDepthsWithinASample) {
     const std::vector<SeismicLayer> layers = flat_layers();
     std::vector<float> trace(700);
     add_reflections_in_depth(trace, interval, reflections(layers), layers.back().rock.velocity,
-                             frequency);
+                             {frequency});
     double depth = 0.0;
     for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
         depth += layers[k].thickness;
