@@ -125,13 +125,19 @@ void add_parts(const PowerPolygon& polygon, double x, std::size_t cell,
 } // namespace
 
 FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground) {
+    return cut_cells(sites, ends, ground, {}).faceted;
+}
+
+CutCells cut_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground,
+                   std::span<const double> lines) {
     if (sites.count() == 0)
-        return {{}, {}, {0}};
+        return {{{}, {}, {0}}, {}};
     const NearSites tree(sites.x, sites.y);
     struct Piece {
         std::vector<PowerCell> cells;
         std::vector<PowerFacet> facets;
         std::vector<std::size_t> counts;
+        std::vector<CellPart> parts;
     };
     const std::vector<Piece> pieces =
         by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
@@ -141,35 +147,18 @@ FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const Groun
                 const PowerPolygon& polygon = cutter.cut(i);
                 const std::size_t before = piece.facets.size();
                 add_facets(polygon, sites, i, piece.facets);
+                add_parts(polygon, sites.x[i], i, lines, piece.parts);
                 piece.cells.push_back(polygon.cell());
                 piece.counts.push_back(piece.facets.size() - before);
             }
             return piece;
         });
-    FacetedCells all{joined(pieces, &Piece::cells), joined(pieces, &Piece::facets), {0}};
+    CutCells all{{joined(pieces, &Piece::cells), joined(pieces, &Piece::facets), {0}},
+                 joined(pieces, &Piece::parts)};
     for (const Piece& piece : pieces)
         for (const std::size_t count : piece.counts)
-            all.begin.push_back(all.begin.back() + count);
+            all.faceted.begin.push_back(all.faceted.begin.back() + count);
     return all;
-}
-
-std::vector<CellPart> cell_parts(const Sites& sites, const SectionEnds& ends,
-                                 const GroundLine& ground, std::span<const double> lines) {
-    if (sites.count() == 0)
-        return {};
-    const NearSites tree(sites.x, sites.y);
-    struct Piece {
-        std::vector<CellPart> parts;
-    };
-    const std::vector<Piece> pieces =
-        by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
-            Piece piece;
-            Cutter cutter(sites, ends, ground, tree);
-            for (; i < end; ++i)
-                add_parts(cutter.cut(i), sites.x[i], i, lines, piece.parts);
-            return piece;
-        });
-    return joined(pieces, &Piece::parts);
 }
 
 } // namespace listric::thermal

@@ -1,7 +1,6 @@
 #include "thermal/heat.hpp"
 
 #include "coupling/thermal_load.hpp"
-#include "thermal/expansion.hpp"
 #include "thermal/rift_column.hpp"
 
 #include "apps/model/bending_base.hpp"
@@ -115,6 +114,9 @@ void contribute(const Scene& scene, ModelParts& parts) {
     const double own = greatest_extension(scene), more = scene.find<P>()->regional_extension;
     if (own > 0.0 && more > 0.0)
         parts.stretch_share = 1.0 + more / own;
+    parts.depth_of_temperature = [geotherm = thermal::Geotherm(*scene.find<P>())](double t) {
+        return geotherm.depth_of(t);
+    };
 }
 
 /// Ends of what temperatures change in, m.
@@ -136,14 +138,15 @@ coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& p
     const auto [left, right] = loaded(scene, parts);
     const std::vector<double> knots = coupling::thermal_knots(left, right, base.left, base.right);
     coupling::ThermalPressure pressure;
-    if (const auto* const heat = dem::find<const thermal::Heat>(events))
-        pressure = [heat, knots, gravity = parts.gravity](const dem::State& state,
-                                                          const dem::RigidBase& rigid) {
-            std::vector<double> weight = thermal::mass_lost(*heat, state, rigid, knots);
+    if (auto* const heat = dem::find<thermal::Heat>(events)) {
+        heat->weigh_at(knots);
+        pressure = [heat, gravity = parts.gravity] {
+            std::vector<double> weight = heat->mass_lost();
             for (double& p : weight)
                 p *= -gravity;
             return weight;
         };
+    }
     return coupling::thermal_load(knots, pressure, schedule(scene));
 }
 
@@ -169,20 +172,6 @@ void check_stretching(const Scene& scene, const Refuse& refuse) {
         refuse("heat.mantle_width_m",
                fmt::format("is {}, but [[stage]] shortens it by {}; widen it",
                            text(*p.mantle_width), text(shortening)));
-}
-
-std::string warning(const Scene& scene) {
-    const BendingBase* const base = bending_base(scene);
-    const ModelParts parts = make_parts(scene);
-    if (!base || !parts.stretched_crust)
-        return "";
-    const auto [left, right] = loaded(scene, parts);
-    return left < base->left || right > base->right
-               ? fmt::format("heat: rock that stretches reaches from x = {} to {}, beyond the "
-                             "footwall from its left_m = {} to right_m = {}: its temperatures load "
-                             "nothing there",
-                             text(left), text(right), text(base->left), text(base->right))
-               : std::string();
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
@@ -297,7 +286,6 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters = parameters(),
         .check = check,
-        .warning = warning,
         .contribute = contribute,
         .add_events = add_events,
         .load_bending_base = load_bending_base,
