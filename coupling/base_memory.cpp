@@ -19,6 +19,7 @@ constexpr const char* last_window = "last_window";
 constexpr const char* creep = "creep";
 constexpr const char* creep_step_name = "creep_step";
 constexpr const char* creep_work_name = "creep_work";
+constexpr const char* isotherm_name = "isotherm";
 constexpr const char* cycles_before = "cycles_before"; // in "creep_step": of the window, before it
 constexpr const char* deviator[] = {"stress_xx", "stress_yy", "stress_xy"};
 
@@ -96,6 +97,29 @@ std::optional<std::uint64_t> mesh_checksum(const State& state) {
     if (!row.has(checksum_name))
         return std::nullopt;
     return static_cast<std::uint64_t>(row.get<std::int64_t>(checksum_name)[0]);
+}
+
+void set_isotherm(State& state, const IsothermMemory& memory) {
+    Table& rows = state.base_memory[isotherm_name];
+    rows.resize(memory.line.size());
+    const auto x = rows.add<double>("x", "m", 0.0), y = rows.add<double>("y", "m", 0.0),
+               since = rows.add<double>("since", "m", 0.0);
+    for (std::size_t k = 0; k < memory.line.size(); ++k) {
+        x[k] = memory.line[k].x;
+        y[k] = memory.line[k].y;
+        since[k] = memory.since;
+    }
+}
+
+std::optional<IsothermMemory> isotherm(const State& state) {
+    const auto found = state.base_memory.find(isotherm_name);
+    if (found == state.base_memory.end())
+        return std::nullopt;
+    const auto x = found->second.get<double>("x"), y = found->second.get<double>("y");
+    IsothermMemory memory{{}, found->second.get<double>("since")[0]};
+    for (std::size_t k = 0; k < x.size(); ++k)
+        memory.line.push_back({x[k], y[k]});
+    return memory;
 }
 
 void set_creep(State& state, const CreepMemory& memory) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/numbers/point.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -47,6 +48,14 @@ struct CreepMemory {
     std::vector<double> work;   ///< of the effects' unit loads on the displacement by it, J/m
 };
 void set_creep(dem::State& state, const CreepMemory& memory);
+
+/// The isotherm that a footwall has, in table "isotherm", and the travel at which it got it.
+struct IsothermMemory {
+    std::vector<dem::Point> line; ///< m
+    double since = 0.0;           ///< m
+};
+void set_isotherm(dem::State& state, const IsothermMemory& memory);
+std::optional<IsothermMemory> isotherm(const dem::State& state); ///< none: it stays elastic
 
 std::optional<double> creep_step(const dem::State& state);   ///< none: nothing relaxes
 std::vector<double> creep_stress(const dem::State& state);   ///< empty: nothing relaxes

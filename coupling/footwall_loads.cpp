@@ -193,6 +193,14 @@ void FootwallLoads::prepare(State& state) const {
             effect.prepare(state);
 }
 
+double FootwallLoads::cover(double x) const {
+    double height = 0.0;
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.cover)
+            height += effect.cover(x);
+    return height;
+}
+
 fem::Load FootwallLoads::elsewhere(const State& state) const {
     std::vector<fem::Load> loads;
     for (const LoadingEvent& effect : *effects_)

@@ -111,6 +111,9 @@ public:
 
     std::size_t unit_loads() const; ///< number of them
 
+    /// Height that the effects have added to the footwall's surface left of the breakaway, m.
+    double cover(double x) const;
+
     /// Load on the footwall elsewhere than on the interface.
     fem::Load elsewhere(const dem::State& state) const;
 

@@ -54,14 +54,13 @@ void ThermalLoad::begin(State& state) {
     state.base_nodes.add<double>(uplift_after_rift, "m", 0.0);
 }
 
-bool ThermalLoad::start(State& state, const RigidBase& base) {
-    std::ranges::copy(pressure_(state, base), memory.get<double>(start_pressure).begin());
+bool ThermalLoad::start(State&, const RigidBase&) {
+    std::ranges::copy(pressure_(), memory.get<double>(start_pressure).begin());
     return false;
 }
 
 bool ThermalLoad::apply(State& state, const RigidBase& base) {
-    std::ranges::transform(pressure_(state, base),
-                           std::as_const(memory).get<double>(start_pressure),
+    std::ranges::transform(pressure_(), std::as_const(memory).get<double>(start_pressure),
                            memory.get<double>(pressure_now).begin(), std::minus());
     const std::vector<double> now = superpose(pressure(), forces_);
     std::ranges::copy(now, footwall_load(state, name(), now.size()).begin());

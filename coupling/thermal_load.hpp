@@ -13,9 +13,8 @@ namespace listric::coupling {
 /// Names of what the load measures; its description declares them.
 inline constexpr const char* thermal_load_name = "thermal_load_n_per_m";
 
-/// Weight that columns of rock have by their temperatures, at knots, Pa: less where it is hot.
-using ThermalPressure =
-    std::function<std::vector<double>(const dem::State& state, const dem::RigidBase& base)>;
+/// Weight that columns of rock have by their temperatures now, at knots, Pa: less where it is hot.
+using ThermalPressure = std::function<std::vector<double>()>;
 
 /// Places where the load is known, m: 10 km apart over what stretches and 100 km to both sides, as
 /// far as the footwall goes; wider apart where these would be more than 60.

@@ -165,11 +165,13 @@ void ElasticFootwall::set_up() {
 void ElasticFootwall::find_stress_points() {
     stress_points_.clear();
     relaxing_.clear();
-    if (std::ranges::none_of(request_.layers,
-                             [](const Layer& layer) { return layer.viscosity.has_value(); }))
+    if (request_.isotherm.empty() && std::ranges::none_of(request_.layers, [](const Layer& layer) {
+            return layer.viscosity.has_value();
+        }))
         return;
     if (dealii::Utilities::MPI::n_mpi_processes(processes_) > 1)
-        throw FootwallError("layers: rock with a viscosity needs one process for the footwall");
+        throw FootwallError("rock with a viscosity, or that gets hot, needs one process for the "
+                            "footwall");
     relaxing_.resize(mesh_.cells->n_active_cells());
     const dealii::QGauss<2> points = quadrature();
     dealii::FEValues<2> values(mapping_, element_, points, dealii::update_quadrature_points);
@@ -177,17 +179,26 @@ void ElasticFootwall::find_stress_points() {
         values.reinit(cell);
         for (unsigned q = 0; q < points.size(); ++q) {
             const Vector place = plain(values.quadrature_point(q));
-            const double time = material_.at_once(place).relaxation_time;
-            if (!std::isfinite(time))
+            const Rock rock = material_.at_once(place);
+            if (!rock.remembers)
                 continue;
             relaxing_[cell->active_cell_index()].push_back(q);
-            stress_points_.push_back({place, time, cell->active_cell_index()});
+            stress_points_.push_back({place, rock.relaxation_time, cell->active_cell_index()});
         }
     });
 }
 
 void ElasticFootwall::take_step(double seconds) {
     material_.take_step(seconds);
+    assemble_anew();
+}
+
+void ElasticFootwall::take_isotherm(std::vector<Vector> line) {
+    material_.take_isotherm(std::move(line));
+    assemble_anew();
+}
+
+void ElasticFootwall::assemble_anew() {
     if (solver_)
         must(KSPDestroy(&solver_), "cannot drop the old factors");
     keeps_interface_ = false;

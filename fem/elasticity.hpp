@@ -69,6 +69,8 @@ public:
     const std::vector<StressPoint>& stress_points() const override { return stress_points_; }
     void take_step(double seconds) override;
     std::vector<double> stress_left(double seconds) const override;
+    void take_isotherm(std::vector<Vector> line) override;
+    std::vector<double> stress_left_below(const std::vector<Vector>& isotherm) const override;
     std::vector<double> work() const override;
     void refine(double share_of_cells) override;
     void write(const std::string& folder, const std::string& name) const override;
@@ -125,6 +127,8 @@ private:
     }
 
     void set_up();
+    void assemble_anew();
+    std::vector<double> stress_left(const ElasticRock& next) const;
     void measure_mesh();
     struct FaceOnWall;
     std::vector<FaceOnWall> own_faces_on_wall() const;

@@ -3,6 +3,7 @@
 #include "fem/blocks.hpp"
 #include "fem/plugin.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -134,6 +135,8 @@ void check(const FootwallRequest& r) {
         refuse("the step of relaxation must be at least 0");
     if (r.elastic_thickness < 0.0 || !(r.relaxation >= 1.0) || r.skin_thickness < 0.0)
         refuse("elastic and skin thickness must be at least 0, the relaxation at least 1");
+    if (!std::ranges::is_sorted(r.isotherm, {}, &Vector::x))
+        refuse("the isotherm must go from left to right");
     check_supports(r);
     if (!r.detachment.empty())
         check_detachment(r);

@@ -136,6 +136,14 @@ public:
     /// Load::stress for a step that begins with the last solution, by stress_points(), Pa.
     virtual std::vector<double> stress_left(double seconds) const = 0;
 
+    /// From now on the isotherm is this one, m; the request had one, too. Compliance and solution
+    /// are gone.
+    virtual void take_isotherm(std::vector<Vector> line) = 0;
+
+    /// Load::stress for a footwall with that isotherm that begins with the last solution: none for
+    /// what is hot then, whose strain makes its stress.
+    virtual std::vector<double> stress_left_below(const std::vector<Vector>& isotherm) const = 0;
+
     /// Work of the loads of the last responses() on the last solution, J/m.
     virtual std::vector<double> work() const = 0;
 

@@ -53,6 +53,10 @@ struct FootwallRequest {
     /// `relaxation`: a crust that is no longer rigid but still incompressible. 0: nowhere.
     double elastic_thickness = 0.0;
     double relaxation = 100.0;
+    /// In its place, a line whose x ascends, level beyond its ends, m: rock that gets below it, hot
+    /// as that is, sheds its stress, and rock that comes above it begins with what it has. See
+    /// Footwall::take_isotherm(). Empty: none.
+    std::vector<Vector> isotherm = {};
     /// Rock within this distance of the detachment, m, is never relaxed and has no viscosity.
     double skin_thickness = 0.0;
     double step = 0.0; ///< of relaxation by viscosity, s: see Footwall::take_step()

@@ -46,7 +46,7 @@ public:
     }
 
     Stress at(const Rock& rock, Vector place, const Tensor<2, 2>& gradient) const {
-        if (!std::isfinite(rock.relaxation_time) || !nearest_)
+        if (!rock.remembers || !nearest_)
             return stress_of(rock, gradient);
         const double* deviator = &deviators_[3 * (*nearest_)(place)];
         const double mean = (rock.lambda + 2.0 / 3.0 * rock.mu) * (gradient[0][0] + gradient[1][1]);
@@ -133,10 +133,8 @@ std::vector<double> ElasticFootwall::stress_deviators() const {
 }
 
 /// Of the stress s and the strain e that the step begins with: decay s - 2 mu e, so that the strain
-/// of its end makes the rest.
-std::vector<double> ElasticFootwall::stress_left(double seconds) const {
-    ElasticRock next = material_;
-    next.take_step(seconds);
+/// of its end makes the rest. Of hot rock all strain does.
+std::vector<double> ElasticFootwall::stress_left(const ElasticRock& next) const {
     const std::vector<double> strain = strain_deviators();
     std::vector<double> result;
     result.reserve(strain.size());
@@ -145,10 +143,24 @@ std::vector<double> ElasticFootwall::stress_left(double seconds) const {
         const Rock then = next.at(stress_points_[k].place);
         for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) {
             const double stress = (stress_.empty() ? 0.0 : stress_[c]) + 2.0 * now.mu * strain[c];
-            result.push_back(then.decay * stress - 2.0 * then.mu * strain[c]);
+            result.push_back(next.is_hot(stress_points_[k].place)
+                                 ? 0.0
+                                 : then.decay * stress - 2.0 * then.mu * strain[c]);
         }
     }
     return result;
+}
+
+std::vector<double> ElasticFootwall::stress_left(double seconds) const {
+    ElasticRock next = material_;
+    next.take_step(seconds);
+    return stress_left(next);
+}
+
+std::vector<double> ElasticFootwall::stress_left_below(const std::vector<Vector>& isotherm) const {
+    ElasticRock next = material_;
+    next.take_isotherm(isotherm);
+    return stress_left(next);
 }
 
 std::vector<double> ElasticFootwall::work() const {
@@ -270,8 +282,7 @@ std::vector<StressPatch> ElasticFootwall::stress() const {
             patch.xx = stress.xx;
             patch.yy = stress.yy;
             patch.xy = stress.xy;
-            patch.is_relaxed =
-                rock.relaxed && (request_.relaxation > 1.0 || std::isfinite(rock.relaxation_time));
+            patch.is_relaxed = rock.relaxed && (request_.relaxation > 1.0 || rock.remembers);
             result.push_back(patch);
         }
     });
@@ -332,14 +343,14 @@ Guard ElasticFootwall::guard(double rock_weight) const {
             guard.rotation = std::max(guard.rotation, 0.5 * std::abs(slope[1][0] - slope[0][1]));
             double pressure = -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
             double shear = 2.0 * rock.mu * radius;
-            if (std::isfinite(rock.relaxation_time) && !stress_.empty()) {
+            if (rock.remembers && !stress_.empty()) {
                 const double* left = &stress_[3 * point];
                 pressure -= 0.5 * (left[0] + left[1]);
                 shear =
                     std::hypot(rock.mu * (slope[0][0] - slope[1][1]) + 0.5 * (left[0] - left[1]),
                                rock.mu * (slope[0][1] + slope[1][0]) + left[2]);
             }
-            point += std::isfinite(rock.relaxation_time);
+            point += rock.remembers;
             if (!rock.relaxed && beyond_byerlee(pressure, shear))
                 guard.beyond_byerlee += values.JxW(q);
         }

@@ -109,9 +109,10 @@ bool Heat::start(State& state, const RigidBase& base) {
     const auto temperature = state.discs.get(columns::temperature);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         temperature[i] = geotherm_.at(ground.depth({d.x[i], d.y[i]}));
-    const FacetedCells faceted = site_cells(cells(state).sites, points_.ends(), ground);
-    points_.set_areas(faceted.cells, d.x.size());
+    const CutCells cut = cut_cells(cells(state).sites, ends(), ground, knots_);
+    points_.set_areas(cut.faceted.cells, d.x.size());
     const HeatCells all = cells(state);
+    mass_lost_ = mass_lost(all, cut.parts, knots_);
     const std::size_t discs = d.x.size();
     std::copy_n(all.capacity.begin(), discs, state.discs.get(columns::heat_capacity).begin());
     std::copy_n(all.temperature.begin(), discs, state.discs.get(columns::max_temperature).begin());
@@ -169,8 +170,8 @@ bool Heat::apply(State& state, const RigidBase& base) {
     HeatCells all = cells(state);
     book_discs(state, all);
     const GroundLine ground = ground_line(state, base, setting_.beside);
-    const HeatNetwork network =
-        heat_network(all.sites, site_cells(all.sites, points_.ends(), ground), all.conductivity);
+    const CutCells cut = cut_cells(all.sites, ends(), ground, knots_);
+    const HeatNetwork network = heat_network(all.sites, cut.faceted, all.conductivity);
     const double seconds = schedule().seconds(applied + 1);
     const std::vector<double> before = all.temperature;
     const HeatFlows flows =
@@ -185,6 +186,7 @@ bool Heat::apply(State& state, const RigidBase& base) {
         sum_of_products(std::span(all.capacity).first(discs), all.temperature);
     std::copy_n(all.temperature.begin(), discs, state.discs.get(columns::temperature).begin());
     std::ranges::copy(std::span(all.temperature).subspan(discs), points_.temperature().begin());
+    mass_lost_ = mass_lost(all, cut.parts, knots_);
     ripen(state, before, seconds);
     return false;
 }
@@ -210,11 +212,35 @@ std::vector<double> Heat::anomaly(const State& state, const RigidBase& base,
                                   std::span<const double> edges) const {
     std::vector<double> sums(edges.empty() ? 0 : edges.size() - 1, 0.0);
     const HeatCells all = cells(state);
-    for (const CellPart& part :
-         cell_parts(all.sites, points_.ends(), ground_line(state, base, setting_.beside), edges))
+    const GroundLine ground = ground_line(state, base, setting_.beside);
+    for (const CellPart& part : cut_cells(all.sites, ends(), ground, edges).parts)
         sums[part.strip] +=
             part.area * (all.temperature[part.cell] -
                          start_temperature({all.sites.x[part.cell], all.sites.y[part.cell]}));
+    return sums;
+}
+
+std::vector<double> Heat::mass_lost(const State& state, const RigidBase& base,
+                                    std::span<const double> knots) const {
+    const HeatCells all = cells(state);
+    const GroundLine ground = ground_line(state, base, setting_.beside);
+    return mass_lost(all, cut_cells(all.sites, ends(), ground, knots).parts, knots);
+}
+
+std::vector<double> Heat::mass_lost(const HeatCells& cells, std::span<const CellPart> parts,
+                                    std::span<const double> knots) const {
+    std::vector<double> sums(knots.size(), 0.0);
+    for (const CellPart& part : parts) {
+        const std::size_t i = part.cell, k = part.strip;
+        const double warmer =
+            cells.temperature[i] - start_temperature({cells.sites.x[i], cells.sites.y[i]});
+        const double mass = p_.expansion * cells.density[i] * warmer * part.area;
+        const double right = (part.x - knots[k]) / (knots[k + 1] - knots[k]);
+        sums[k] += (1.0 - right) * mass;
+        sums[k + 1] += right * mass;
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        sums[k] /= 0.5 * (knots[std::min(k + 1, knots.size() - 1)] - knots[k > 0 ? k - 1 : 0]);
     return sums;
 }
 

@@ -5,7 +5,9 @@
 #include "thermal/heat_points.hpp"
 
 #include <functional>
+#include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace listric::thermal {
@@ -61,6 +63,7 @@ public:
     const HeatParameters& parameters() const { return p_; }
     const HeatSetting& setting() const { return setting_; }
     const Geotherm& geotherm() const { return geotherm_; }
+    const SectionEnds& ends() const { return points_.ends(); }
 
     /// All that conducts now.
     HeatCells cells(const dem::State& state) const;
@@ -76,14 +79,34 @@ public:
     std::vector<double> anomaly(const dem::State& state, const dem::RigidBase& base,
                                 std::span<const double> edges) const;
 
+    /// Mass that thermal expansion has taken from the columns since the start, kg/m^2; below 0
+    /// where they are colder: the integral over depth of expansion times density times what a place
+    /// is warmer than it was at the start. At each knot the mean weighted with the line that is 1
+    /// there and 0 at the knots beside it: what lies between the outermost knots counts once.
+    ///
+    /// Density is that of what is there now, without expansion: its difference from what was there
+    /// is load by itself, and with discs counted as their weight. Sediment above the ground of the
+    /// start has the density that it weighs with at the ground's temperature.
+    /// @param knots  ascending, m; at least two
+    std::vector<double> mass_lost(const dem::State& state, const dem::RigidBase& base,
+                                  std::span<const double> knots) const;
+
+    /// The same as of the last solution, at knots that solutions are told before: that costs
+    /// little. Empty: there was none since.
+    void weigh_at(std::vector<double> knots) { knots_ = std::move(knots); }
+    const std::vector<double>& mass_lost() const { return mass_lost_; }
+
 private:
     void book_discs(dem::State& state, const HeatCells& cells);
+    std::vector<double> mass_lost(const HeatCells& cells, std::span<const CellPart> parts,
+                                  std::span<const double> knots) const;
     void ripen(dem::State& state, std::span<const double> before, double seconds) const;
 
     HeatParameters p_;
     HeatSetting setting_;
     HeatPoints& points_;
     Geotherm geotherm_;
+    std::vector<double> knots_, mass_lost_;
 };
 
 /// Heat flow through the ground by the temperatures of its uppermost kilometre, mW/m^2.

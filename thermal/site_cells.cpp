@@ -108,35 +108,33 @@ void add_parts(const PowerPolygon& polygon, double x, std::size_t cell,
 } // namespace
 
 FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground) {
-    if (sites.count() == 0)
-        return {{}, {}, {0}};
-    const NearSites tree(sites.x, sites.y);
-    return joined_cells(by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
-        FacetedPiece piece;
-        Cutter cutter(sites, ends, ground, tree);
-        for (; i < end; ++i)
-            piece.add(cutter.cut(i), i, sites.x, sites.y);
-        return piece;
-    }));
+    return cut_cells(sites, ends, ground, {}).faceted;
 }
 
-std::vector<CellPart> cell_parts(const Sites& sites, const SectionEnds& ends,
-                                 const GroundLine& ground, std::span<const double> lines) {
+CutCells cut_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground,
+                   std::span<const double> lines) {
     if (sites.count() == 0)
-        return {};
+        return {{{}, {}, {0}}, {}};
     const NearSites tree(sites.x, sites.y);
     struct Piece {
+        FacetedPiece faceted;
         std::vector<CellPart> parts;
     };
-    const std::vector<Piece> pieces =
-        by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
-            Piece piece;
-            Cutter cutter(sites, ends, ground, tree);
-            for (; i < end; ++i)
-                add_parts(cutter.cut(i), sites.x[i], i, lines, piece.parts);
-            return piece;
-        });
-    return joined(pieces, &Piece::parts);
+    std::vector<Piece> pieces = by_piece(sites.count(), 64, [&](std::size_t i, std::size_t end) {
+        Piece piece;
+        Cutter cutter(sites, ends, ground, tree);
+        for (; i < end; ++i) {
+            const PowerPolygon& polygon = cutter.cut(i);
+            piece.faceted.add(polygon, i, sites.x, sites.y);
+            add_parts(polygon, sites.x[i], i, lines, piece.parts);
+        }
+        return piece;
+    });
+    std::vector<CellPart> parts = joined(pieces, &Piece::parts);
+    std::vector<FacetedPiece> faceted;
+    for (Piece& piece : pieces)
+        faceted.push_back(std::move(piece.faceted));
+    return {joined_cells(faceted), std::move(parts)};
 }
 
 } // namespace listric::thermal

@@ -37,8 +37,12 @@ struct CellPart {
     double x;                ///< of its centre of area, m
 };
 
-/// The same cells, cut by vertical lines whose x ascends: what lies between them.
-std::vector<CellPart> cell_parts(const Sites& sites, const SectionEnds& ends,
-                                 const GroundLine& ground, std::span<const double> lines);
+/// The same cells, also cut by vertical lines whose x ascends: what lies between them.
+struct CutCells {
+    dem::FacetedCells faceted;
+    std::vector<CellPart> parts;
+};
+CutCells cut_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground,
+                   std::span<const double> lines);
 
 } // namespace listric::thermal

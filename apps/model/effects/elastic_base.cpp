@@ -34,10 +34,15 @@ std::vector<Parameter> plate_parameters() {
     return {
         {"elastic_thickness_m", at<&P::bending, &B::elastic_thickness>, "m", between(100, 2e5), "",
          "effective elastic thickness Te: rock below it does not carry bending; its default beside "
-         "a viscosity of layers is depth_m, so that viscosity alone says what flows",
+         "a viscosity of layers or an isotherm is depth_m, so that these alone say what flows",
          "Raising it lowers the flank and widens its uplift; below 10 km the number is nominal, "
          "since a skin along the detachment bends, too.",
          between(4600, 77e3)},
+        {"elastic_isotherm_c", at<&P::isotherm>, "degC", between(50, 1200), "",
+         "temperature at which the strength of rock ends, in place of elastic_thickness_m; with "
+         "temperatures of rock. What cools then begins without stress, what heats sheds its own",
+         "Lowering it thins the plate; it is thinnest where and when a rift is hottest.",
+         between(250, 450)},
         {"young_modulus_pa", at<&P::bending, &B::young_modulus>, "Pa", between(1e6, 1e13), "E",
          "Young's modulus of the base",
          "Raising it stiffens the plate in proportion; thickness counts with its cube."},
@@ -127,7 +132,9 @@ std::vector<Parameter> coupling_parameters() {
          "5, 7 % at 20, of 2 km of extension.",
          between(1, 20)},
         {"modes", at<&P::modes>, "", between(0, 1e5), "",
-         "number of the base's softest modes that move; 0: all, as beside a viscosity of layers",
+         "number of the base's softest modes that move; 0: all, as beside a viscosity of layers or "
+         "an "
+         "isotherm",
          "Lowering it below 20 holds the base stiffer at short wavelengths.", between(20, 100)},
         {"mass_factor",
          at<&P::mass_factor>,
@@ -149,21 +156,27 @@ std::vector<Parameter> parameters() {
     return all;
 }
 
-/// A base that relaxes bends as its viscosities say, and moves in all its modes: those of one step
-/// of relaxation are not those of another.
+/// A base that relaxes, or whose strength ends at an isotherm, bends as these say, and moves in all
+/// its modes: those of one stiffness are not those of another.
 void complete(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {
     P& base = *scene.find<P>();
-    if (!relaxes(base))
+    if (!changes(base))
         return;
     if (!is_given("elastic_base.elastic_thickness_m"))
         base.bending.elastic_thickness = base.depth;
+    else if (base.isotherm && base.bending.elastic_thickness != base.depth)
+        refuse("elastic_base.elastic_isotherm_c",
+               fmt::format("is {} beside elastic_thickness_m = {}; strength ends at one of them: "
+                           "leave one out",
+                           text(*base.isotherm), text(base.bending.elastic_thickness)));
     if (!is_given("elastic_base.modes"))
         base.modes = 0;
     else if (base.modes != 0)
         refuse("elastic_base.modes",
-               fmt::format("is {} beside a layer with viscosity_pa_s; a base that relaxes moves in "
-                           "all its modes: give 0 or leave it out",
-                           base.modes));
+               fmt::format("is {} beside {}; a base whose stiffness changes moves in all its "
+                           "modes: give 0 or leave it out",
+                           base.modes,
+                           base.isotherm ? "elastic_isotherm_c" : "a layer with viscosity_pa_s"));
 }
 
 /// Rock below the elastic thickness is soft from the start: nothing is left to relax.
@@ -179,6 +192,29 @@ void check_viscosity(const P& base, const Refuse& refuse) {
                                text(*layer.viscosity), text(layer.top_depth),
                                text(base.bending.elastic_thickness), text(base.depth)));
     }
+}
+
+/// An isotherm lies in the base, and is what its rock changes by.
+void check_isotherm(const P& base, const ModelParts& parts, const Refuse& refuse) {
+    if (!base.isotherm)
+        return;
+    const std::string value = text(*base.isotherm);
+    if (!parts.depth_of_temperature)
+        refuse("elastic_base.elastic_isotherm_c",
+               fmt::format("is {}, but rock has no temperatures; add the table that gives it some, "
+                           "or give elastic_thickness_m",
+                           value));
+    if (relaxes(base))
+        refuse("elastic_base.elastic_isotherm_c",
+               fmt::format("is {} beside a layer with viscosity_pa_s; leave one out", value));
+    const auto depth = parts.depth_of_temperature(*base.isotherm);
+    if (!depth || *depth <= 0.0 || *depth >= base.depth)
+        refuse(
+            "elastic_base.elastic_isotherm_c",
+            fmt::format("is {}, which rock has {}, allowed: between the ground and depth_m = {}; "
+                        "lower it, or raise depth_m",
+                        value, depth ? fmt::format("at {:.0f} m", *depth) : std::string("nowhere"),
+                        text(base.depth)));
 }
 
 /// The run's own elements, and those half as large with which it is checked at its end.
@@ -237,6 +273,7 @@ void check(const Scene& scene, const Refuse& refuse) {
         refuse("elastic_base.solver",
                "makes no factors, which a base under discs is condensed with; allowed: mumps");
     const ModelParts parts = make_parts(scene);
+    check_isotherm(base, parts, refuse);
     const fem::FootwallRequest request = make_footwall_request(scene, parts);
     check_cell_size(base, request, refuse);
     try {
@@ -349,7 +386,7 @@ std::string explain(const Scene& scene, EffectList list) {
     const P& base = *listric::elastic_base(scene);
     std::string text = fmt::format(
         "elastic base\n"
-        "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
+        "  Te {:.3g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
         "1/{:g},\n  but not within {:g} km of the detachment; updated every {} cycles\n"
         "  loaded by what changes in the discs' forces since they settled on it\n"
         "  loads that no disc carries\n"
@@ -358,9 +395,10 @@ std::string explain(const Scene& scene, EffectList list) {
         "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
         "    footwall and on the detachment, {} kg/m3 at the base\n"
         "    {}\n",
-        base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
-        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3, base.update_interval,
-        base.bending.crust_density, base.bending.floats_on() - base.bending.crust_density,
+        make_footwall_request(scene, make_parts(scene)).elastic_thickness / 1e3, base.depth / 1e3,
+        base.bending.left / 1e3, base.bending.right / 1e3, base.relaxation,
+        base.skin_thickness / 1e3, base.update_interval, base.bending.crust_density,
+        base.bending.floats_on() - base.bending.crust_density,
         base.bending.infill_density > 0.0
             ? fmt::format("infill of {} kg/m3 on the footwall's surface: {} kg/m3 there, where it "
                           "sinks and\n    where it rises",
@@ -369,6 +407,9 @@ std::string explain(const Scene& scene, EffectList list) {
             : std::string("no infill on the footwall's surface"));
     if (relaxes(base))
         text += explain_creep(scene, base);
+    if (base.isotherm)
+        text += fmt::format("  Te is the depth of {:g} degC at the start, and follows it\n",
+                            *base.isotherm);
     for (const EffectPart& part : scene.effects)
         if (part.effect->load_footwall && part.effect->explain)
             text += part.effect->explain(scene, list);

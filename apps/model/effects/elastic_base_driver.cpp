@@ -11,15 +11,16 @@
 #include "coupling/base_memory.hpp"
 #include "coupling/creep.hpp"
 #include "coupling/elastic_base.hpp"
-#include "coupling/footwall_erosion.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
+#include "coupling/moving_isotherm.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/numbers/hash.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/numbers/units.hpp"
 #include "thermal/heat.hpp"
+#include "thermal/temperature_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -111,11 +112,16 @@ public:
               return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts, events),
                                    loads);
           })) {
-        const auto* const erosion = find<FootwallErosion>(loads);
-        if (auto* const heat = find<thermal::Heat>(events); heat && erosion)
-            heat->cover_by([erosion](double x) { return erosion->cover(x); });
+        if (auto* const heat = find<thermal::Heat>(events))
+            heat->cover_by([this](double x) { return loads_.cover(x); });
         if (footwall_->stress_points().empty())
             return;
+        if (const auto& temperature = elastic_base(scene)->isotherm) {
+            auto moving = make_isotherm(scene, *temperature, events);
+            isotherm_ = moving.get();
+            loads.insert(loads.begin(), std::move(moving));
+            return;
+        }
         auto creep = std::make_unique<Creep>(*footwall_, *base_, loads_, make_calendar(scene),
                                              Travel(scene.extension.distance));
         creep_ = creep.get();
@@ -156,6 +162,8 @@ public:
     std::optional<BaseCheck> check(const State& state) const override;
 
 private:
+    std::unique_ptr<MovingIsotherm> make_isotherm(const Scene& scene, double temperature,
+                                                  std::span<const std::unique_ptr<Event>> events);
     IndependentSolution solve_on_finer_mesh(const State& state,
                                             std::span<const double> on_interface) const;
 
@@ -165,8 +173,31 @@ private:
     std::unique_ptr<fem::Footwall> footwall_;
     std::unique_ptr<ElasticBase> base_;
     FootwallLoads loads_;
-    Creep* creep_ = nullptr; ///< one of the run's events, where rock relaxes
+    Creep* creep_ = nullptr;             ///< one of the run's events, where rock relaxes
+    MovingIsotherm* isotherm_ = nullptr; ///< likewise, where strength ends at one
 };
+
+/// At places 10 km apart, where rock of the footwall has temperatures.
+std::unique_ptr<MovingIsotherm>
+ElasticBaseDriver::make_isotherm(const Scene& scene, double temperature,
+                                 std::span<const std::unique_ptr<Event>> events) {
+    constexpr double spacing = 10e3; // m
+    std::vector<Point> line;
+    for (const fem::Vector& p : request_.isotherm)
+        line.push_back({p.x, p.y});
+    const auto* const heat = dem::find<const thermal::Heat>(events);
+    const double left = std::max(request_.left, heat ? heat->ends().left + spacing : 0.0);
+    const double right = std::min(request_.right, heat ? heat->ends().right - spacing : 0.0);
+    std::vector<double> places;
+    for (double x = left; heat && x <= right; x += spacing)
+        places.push_back(x);
+    const IsothermNow now = [heat, temperature, places](const State& state, const RigidBase& base) {
+        return thermal::isotherm(*heat, state, base, temperature, places);
+    };
+    return std::make_unique<MovingIsotherm>(
+        *footwall_, *base_, loads_, std::move(line), now, std::max(500.0, request_.cell_size),
+        heat ? heat->schedule() : Schedule(1e9, make_calendar(scene)));
+}
 
 void ElasticBaseDriver::require_own(const State& state) {
     const std::string& file = request_.mesh_file;
@@ -174,6 +205,8 @@ void ElasticBaseDriver::require_own(const State& state) {
     if (fits && (file.empty() || mesh_checksum(state).value_or(mesh_checksum_) == mesh_checksum_)) {
         if (creep_)
             refusing([&] { creep_->go_on_with(state); });
+        if (isotherm_)
+            refusing([&] { isotherm_->go_on_with(state); });
         return;
     }
     if (!file.empty())
@@ -196,6 +229,8 @@ ElasticBaseDriver::solve_on_finer_mesh(const State& state,
         throw fem::FootwallError(request_.mesh_file + ": has changed since the run began");
     fem::FootwallRequest request = request_;
     request.step = creep_step(state).value_or(0.0);
+    if (const auto known = isotherm(state))
+        request.isotherm = isotherm_of(known->line);
     return solve_independently(request, base_->interface(), on_interface, loads_.elsewhere(state),
                                footwall_->stress_points());
 }

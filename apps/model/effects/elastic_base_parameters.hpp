@@ -6,6 +6,7 @@
 #include "fem/footwall.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ElasticBaseParameters {
     BendingBase bending;
 
     // Under discs.
+    std::optional<double> isotherm; ///< where strength ends, in place of Te, degrees Celsius
     double depth = 30e3;            ///< of the base's lower boundary, m
     double relaxation = 100.0;      ///< shear modulus over that below the elastic thickness
     double skin_thickness = 3e3;    ///< rock along the detachment that is not relaxed, m
@@ -35,6 +37,9 @@ inline bool relaxes(const ElasticBaseParameters& base) {
     return std::ranges::any_of(base.layers,
                                [](const fem::Layer& layer) { return layer.viscosity.has_value(); });
 }
+
+/// Whether its stiffness changes in a run: then it moves in all its modes.
+inline bool changes(const ElasticBaseParameters& base) { return relaxes(base) || base.isotherm; }
 
 /// Parameters of a scene's base; null where it does not bend.
 inline const ElasticBaseParameters* elastic_base(const Scene& scene) {

@@ -34,6 +34,11 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     request.solver = base.bending.solver;
     request.refinements = base.refinements;
     request.elastic_thickness = base.bending.elastic_thickness;
+    if (base.isotherm) { // elements of the start end at it
+        request.elastic_thickness = parts.depth_of_temperature(*base.isotherm).value_or(base.depth);
+        request.isotherm = {{base.bending.left, -request.elastic_thickness},
+                            {base.bending.right, -request.elastic_thickness}};
+    }
     request.relaxation = base.relaxation;
     request.skin_thickness = base.skin_thickness;
     // Springs at the density contrasts. All of them at the base would leave the plate floating on

@@ -1,7 +1,6 @@
 #include "thermal/heat.hpp"
 
 #include "coupling/thermal_load.hpp"
-#include "thermal/expansion.hpp"
 #include "thermal/rift_column.hpp"
 
 #include "apps/model/bending_base.hpp"
@@ -115,6 +114,9 @@ void contribute(const Scene& scene, ModelParts& parts) {
     const double own = greatest_extension(scene), more = scene.find<P>()->regional_extension;
     if (own > 0.0 && more > 0.0)
         parts.stretch_share = 1.0 + more / own;
+    parts.depth_of_temperature = [geotherm = thermal::Geotherm(*scene.find<P>())](double t) {
+        return geotherm.depth_of(t);
+    };
 }
 
 /// Ends of what temperatures change in, m.
@@ -136,14 +138,15 @@ coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& p
     const auto [left, right] = loaded(scene, parts);
     const std::vector<double> knots = coupling::thermal_knots(left, right, base.left, base.right);
     coupling::ThermalPressure pressure;
-    if (const auto* const heat = dem::find<const thermal::Heat>(events))
-        pressure = [heat, knots, gravity = parts.gravity](const dem::State& state,
-                                                          const dem::RigidBase& rigid) {
-            std::vector<double> weight = thermal::mass_lost(*heat, state, rigid, knots);
+    if (auto* const heat = dem::find<thermal::Heat>(events)) {
+        heat->weigh_at(knots);
+        pressure = [heat, gravity = parts.gravity] {
+            std::vector<double> weight = heat->mass_lost();
             for (double& p : weight)
                 p *= -gravity;
             return weight;
         };
+    }
     return coupling::thermal_load(knots, pressure, schedule(scene));
 }
 
@@ -171,7 +174,7 @@ void check_stretching(const Scene& scene, const Refuse& refuse) {
                            text(*p.mantle_width), text(shortening)));
 }
 
-std::string warning_of_steps(const Scene& scene) {
+std::string warning(const Scene& scene) {
     constexpr double longest = 5e6; // a
     const auto pauses = make_calendar(scene).pauses();
     if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
@@ -183,25 +186,6 @@ std::string warning_of_steps(const Scene& scene) {
                        "sediment go evenly from one to the next, so that their maturity is coarse; "
                        "up to {} is usual",
                        stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
-}
-
-std::string warning_of_reach(const Scene& scene) {
-    const BendingBase* const base = bending_base(scene);
-    const ModelParts parts = make_parts(scene);
-    if (!base || !parts.stretched_crust)
-        return "";
-    const auto [left, right] = loaded(scene, parts);
-    return left < base->left || right > base->right
-               ? fmt::format("heat: rock that stretches reaches from x = {} to {}, beyond the "
-                             "footwall from its left_m = {} to right_m = {}: its temperatures load "
-                             "nothing there",
-                             text(left), text(right), text(base->left), text(base->right))
-               : std::string();
-}
-
-std::string warning(const Scene& scene) {
-    const std::string steps = warning_of_steps(scene), reach = warning_of_reach(scene);
-    return steps.empty() || reach.empty() ? steps + reach : steps + "; " + reach;
 }
 
 void check(const Scene& scene, const Refuse& refuse) {

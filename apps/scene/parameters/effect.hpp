@@ -138,6 +138,9 @@ struct ModelParts {
     std::optional<WaterFacts>
         water; ///< none: pores are empty, or what fills them weighs on no disc
     std::optional<StretchedCrust> stretched_crust; ///< none: what is below the detachment rests
+    /// Depth of a temperature, degrees Celsius, in the rock before extension, m; none: it is not
+    /// that hot. Null: rock has no temperatures.
+    std::function<std::optional<double>(double temperature)> depth_of_temperature;
     double stretch_share = 1.0; ///< of the extension by which crust and mantle stretch there
     /// Sediment younger than this is too loose for a fault: it creeps all over, m of travel.
     double youngest_sediment = 2.0e3;

@@ -6,7 +6,7 @@
 #include "coupling/thermal_load.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/footwalls.hpp"
-#include "thermal/expansion.hpp"
+#include "thermal/heat.hpp"
 #include "thermal/rift_column.hpp"
 
 #include <gtest/gtest.h>
@@ -147,7 +147,7 @@ struct Rift {
         move(heat);
     }
     std::vector<double> lost(const std::vector<double>& knots) const {
-        return thermal::mass_lost(heat, state, base, knots);
+        return heat.mass_lost(state, base, knots);
     }
 };
 
@@ -289,7 +289,7 @@ TEST(ThermalLoad, CountsNothingThatTheLowerCrustCounts) {
     const auto footwall = fem::make_footwall(request);
     const ElasticBase base(condense(*footwall, 2), {});
     const LowerCrustThinningParameters thinning{20e3, 100e3, 0.0};
-    const auto pressure = [&](const State&, const RigidBase&) {
+    const auto pressure = [&] {
         std::vector<double> weight = rift.lost(knots);
         for (double& p : weight)
             p *= -gravity;

@@ -7,6 +7,7 @@
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
 #include "thermal/heat.hpp"
+#include "thermal/temperature_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,61 +68,13 @@ V subsidence_by_cooling(const Observation& now) {
     return x ? coupling::post_rift_subsidence(now.state, motion, *x) : std::nan("");
 }
 
-/// Depth at which the column at x has come to a temperature, of discs and points within 1 km.
-class Columns {
-public:
-    explicit Columns(const Observation& now)
-        : cells_(heat_in(now)->cells(now.state)),
-          ground_(heat_in(now)->solved_ground(now.state, now.parts.base)),
-          surface_(heat_in(now)->parameters().surface_temperature) {}
-
-    /// None: not above the section's floor.
-    std::optional<dem::Point> crossing(double x, double temperature) const {
-        const std::vector<std::size_t> column = sites_about(x);
-        double depth = 0.0, before = surface_;
-        for (const std::size_t i : column) {
-            const double at = cells_.temperature[i];
-            const double its = ground_.depth({cells_.sites.x[i], cells_.sites.y[i]});
-            if (at >= temperature && its > depth) {
-                const double share = at > before ? (temperature - before) / (at - before) : 1.0;
-                depth += std::clamp(share, 0.0, 1.0) * (its - depth);
-                return dem::Point{x, ground_.height(x) - depth};
-            }
-            if (its > depth) {
-                depth = its;
-                before = at;
-            }
-        }
-        return std::nullopt;
-    }
-
-    double depth(dem::Point p) const { return ground_.depth(p); }
-
-private:
-    /// From the ground down. Sites are wider apart the deeper they are.
-    std::vector<std::size_t> sites_about(double x) const {
-        std::vector<std::size_t> column;
-        for (std::size_t i = 0; i < cells_.sites.count(); ++i)
-            if (!cells_.is_new[i] && std::abs(cells_.sites.x[i] - x) <= 0.4 * cells_.sites.reach[i])
-                column.push_back(i);
-        std::ranges::sort(column, {}, [&](std::size_t i) {
-            return ground_.depth({cells_.sites.x[i], cells_.sites.y[i]});
-        });
-        return column;
-    }
-
-    thermal::HeatCells cells_;
-    thermal::GroundLine ground_;
-    double surface_;
-};
-
 V depth_of_300(const Observation& now) {
     if (!heat_in(now))
         return std::nullopt;
     const V x = depocentre(warm_discs(now));
     if (!x)
         return std::nan("");
-    const Columns columns(now);
+    const thermal::TemperatureColumns columns(*heat_in(now), now.state, now.parts.base);
     const auto crossing = columns.crossing(*x, 300.0);
     return crossing ? columns.depth(*crossing) : std::nan("");
 }
@@ -259,7 +212,7 @@ std::vector<double> isotherms(const Observation& now) {
     const Heat* const heat = heat_in(now);
     if (!heat)
         return rows;
-    const Columns columns(now);
+    const thermal::TemperatureColumns columns(*heat_in(now), now.state, now.parts.base);
     const auto ends = section_ends(heat->parameters(), heat->setting());
     std::vector<double> places{ends.left + 5e3};
     for (double x = -20e3; x <= now.right_end() + 20e3; x += 500.0)
