@@ -66,8 +66,14 @@ std::vector<double> heights(const std::vector<Polyline>& pieces, std::size_t col
     return y;
 }
 
-/// Names ensembles by the parameters in which their scenes differ; one alone has its scene's name.
+/// Names ensembles by their scenes; where scenes of one name differ, by the parameters in which
+/// they do.
 void name_ensembles(std::vector<Ensemble>& ensembles) {
+    std::set<std::string> names;
+    for (const Ensemble& e : ensembles)
+        names.insert(e.title);
+    if (names.size() == ensembles.size())
+        return;
     std::map<std::string, std::set<std::string>> values;
     for (const Ensemble& e : ensembles)
         for (const auto& [key, value] : e.scene)

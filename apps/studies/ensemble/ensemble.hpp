@@ -35,7 +35,7 @@ struct EnsembleRun {
 
 /// Runs that differ by their seeds alone.
 struct Ensemble {
-    std::string title; ///< parameters in which its scene differs from others'; alone its name
+    std::string title; ///< its scene's name, or parameters in which that differs from others
     double length = 0.0, depth = 0.0;         ///< of the section, m
     measures::Polyline base = {};             ///< of the first run, m
     std::map<std::string, std::string> scene; ///< without the seed, to tell others from it
