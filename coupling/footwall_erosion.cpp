@@ -1,5 +1,6 @@
 #include "coupling/footwall_erosion.hpp"
 
+#include "coupling/footwall_cover.hpp"
 #include "coupling/interface_loads.hpp"
 
 #include <algorithm>
@@ -160,6 +161,13 @@ double FootwallErosion::cover(double x) const {
         line.push_back(
             {response_.x[k], memory.get<double>("deposited")[k] - memory.get<double>("eroded")[k]});
     return x < response_.x.front() ? 0.0 : TargetLine(line).height(x);
+}
+
+std::function<double(double)> footwall_cover(std::span<const std::unique_ptr<Event>> loads) {
+    const auto* const erosion = find<FootwallErosion>(loads);
+    if (!erosion)
+        return {};
+    return [erosion](double x) { return erosion->cover(x); };
 }
 
 bool FootwallErosion::apply(State& state, const RigidBase&) {

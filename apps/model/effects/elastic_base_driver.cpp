@@ -11,7 +11,7 @@
 #include "coupling/base_memory.hpp"
 #include "coupling/creep.hpp"
 #include "coupling/elastic_base.hpp"
-#include "coupling/footwall_erosion.hpp"
+#include "coupling/footwall_cover.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
@@ -111,9 +111,8 @@ public:
               return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts, events),
                                    loads);
           })) {
-        const auto* const erosion = find<FootwallErosion>(loads);
-        if (auto* const heat = find<thermal::Heat>(events); heat && erosion)
-            heat->cover_by([erosion](double x) { return erosion->cover(x); });
+        if (auto* const heat = find<thermal::Heat>(events))
+            heat->cover_by(footwall_cover(loads));
         if (footwall_->stress_points().empty())
             return;
         auto creep = std::make_unique<Creep>(*footwall_, *base_, loads_, make_calendar(scene),
