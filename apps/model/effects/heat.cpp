@@ -179,13 +179,13 @@ std::string warning(const Scene& scene) {
     const auto pauses = make_calendar(scene).pauses();
     if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
         return "";
-    const auto stage = std::ranges::find_if(*scene.find<Stages>(), [](const StageParameters& one) {
-        return one.step.value_or(0.0) > longest;
-    });
+    const Stages& all = *scene.find<Stages>();
+    const auto found =
+        std::ranges::find_if(all, [](const auto& one) { return one.step.value_or(0.0) > longest; });
     return fmt::format("stage[{}].step_a: is {}; in a step rock does not move and temperatures of "
                        "sediment go evenly from one to the next, so that their maturity is coarse; "
                        "up to {} is usual",
-                       stage - scene.find<Stages>()->begin(), text(*stage->step), text(longest));
+                       found - all.begin(), text(*found->step), text(longest));
 }
 
 void check(const Scene& scene, const Refuse& refuse) {

@@ -13,7 +13,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace listric::heat_run_test {
@@ -114,6 +117,65 @@ TEST_F(HeatRun, HasTheSameBitsHoweverAPauseIsCut) {
     }
     o.until = {};
     EXPECT_EQ(run(with(stages), o)["state_hash"], once["state_hash"]);
+}
+
+/// Sum of EASY%Ro's reactions after a path of temperatures, by the trapezoidal rule in steps of a
+/// thousandth: a program of its own.
+double reflectance_of(const std::vector<std::pair<double, double>>& path) {
+    constexpr double shares[] = {3, 3, 4, 4, 5, 5, 6, 4, 4, 7, 6, 6, 6, 5, 5, 4, 3, 2, 2, 1};
+    double reacted = 0.0;
+    for (int reaction = 0; reaction < 20; ++reaction) {
+        const double energy = (34.0 + 2.0 * reaction) * 4184.0;
+        const auto rate = [&](double celsius) {
+            return 1e13 * std::exp(-energy / (8.31446 * (celsius + 273.15)));
+        };
+        double integral = 0.0;
+        for (std::size_t k = 1; k < path.size(); ++k) {
+            constexpr int parts = 1000;
+            const auto [start, from] = path[k - 1];
+            const auto [end, to] = path[k];
+            for (int part = 0; part < parts; ++part)
+                integral += 0.5 *
+                            (rate(std::lerp(from, to, part / 1000.0)) +
+                             rate(std::lerp(from, to, (part + 1) / 1000.0))) *
+                            (end - start) * 365.25 * 86400.0 / parts;
+        }
+        reacted += 0.01 * shares[reaction] * (1.0 - std::exp(-integral));
+    }
+    return std::exp(-1.6 + 3.7 * reacted);
+}
+
+/// A snapshot for each solution, so that a disc's path is known.
+TEST_F(HeatRun, ReflectanceIsThatOfTheDiscsPath) {
+    const std::vector<std::string> set{
+        "output.interval_m=100",
+        "heat.interval_a=10000",
+        "heat.lithosphere_m=20e3",
+        "heat.crust_m=10e3",
+        "extension.distance_m=600",
+        "stage=[{distance_m=200.0}, {pause_a=40e6, step_a=10e6, settle_m=100.0}]"};
+    const Scene scene = with(set);
+    run(scene, options("path"));
+    const Calendar calendar = make_calendar(scene);
+    std::map<std::int64_t, std::vector<std::pair<double, double>>> paths; // years, degrees Celsius
+    State last;
+    for (const auto& file : list_snapshots(folder / "path")) {
+        last = read_snapshot(file).state;
+        const auto temperature = last.discs.get<double>("temperature");
+        for (std::size_t i = 0; i < temperature.size(); ++i)
+            paths[disc_columns(std::as_const(last)).id[i]].emplace_back(
+                calendar.age(last.clock.travel), temperature[i]);
+    }
+    const ConstDiscColumns d = disc_columns(std::as_const(last));
+    double most = 0.0;
+    for (std::size_t i = 0; i < d.id.size(); ++i) {
+        const double found = last.discs.get<double>("vitrinite")[i];
+        if (d.stratum[i] == 0 || found == 0.0)
+            continue;
+        most = std::max(most, found);
+        EXPECT_NEAR(found, reflectance_of(paths.at(d.id[i])), 1e-3) << d.id[i];
+    }
+    EXPECT_GT(most, 0.25);
 }
 
 TEST_F(HeatRun, WellsAreExported) {

@@ -108,10 +108,20 @@ struct Rift {
         }
     }
 
-    /// Uplift of the middle, in its water, m.
+    /// Uplift of the middle, in its water, m: a mean whose weights rise from nothing and fall
+    /// again, for heat goes sideways where stretching ends.
     double uplift() const {
-        const std::vector<double> edges{-400e3, -40e3};
-        return mantle * expansion / (mantle - water) * heat.anomaly(state, base, edges)[0] / 360e3;
+        constexpr double left = -400e3, strip = 10e3;
+        constexpr int strips = 36;
+        std::vector<double> edges;
+        for (int k = 0; k <= strips; ++k)
+            edges.push_back(left + k * strip);
+        const std::vector<double> sums = heat.anomaly(state, base, edges);
+        double mean = 0.0;
+        for (int k = 0; k < strips; ++k)
+            mean += sums[static_cast<std::size_t>(k)] / (strips * strip) *
+                    (1.0 - std::cos(2.0 * std::numbers::pi * (k + 0.5) / strips));
+        return mantle * expansion / (mantle - water) * mean;
     }
 };
 
