@@ -43,19 +43,20 @@ void add_base_pressure(State& state) {
         state.base_nodes.add(column);
 }
 
-double lifted_share(const PoreCells& cells, std::span<const double> volume,
+double lifted_share(const PoreCells& cells, std::span<const Point> force,
                     std::span<const double> excess_pressure) {
     const std::vector<Point> gradients = pressure_gradients(cells, excess_pressure);
-    Point of_mud, of_cells;
+    Point acts, of_cells;
     for (std::size_t k = 0; k < cells.count(); ++k) {
+        const Point on_disc = force[static_cast<std::size_t>(cells.rows[k])];
         const double area = cells.faceted.cells[k].area;
-        of_mud.x += volume[k] * gradients[k].x;
-        of_mud.y += volume[k] * gradients[k].y;
-        of_cells.x += area * gradients[k].x;
-        of_cells.y += area * gradients[k].y;
+        acts.x += on_disc.x;
+        acts.y += on_disc.y;
+        of_cells.x -= area * gradients[k].x;
+        of_cells.y -= area * gradients[k].y;
     }
     const double square = of_cells.x * of_cells.x + of_cells.y * of_cells.y;
-    return square > 0.0 ? (of_mud.x * of_cells.x + of_mud.y * of_cells.y) / square : 1.0;
+    return square > 0.0 ? (acts.x * of_cells.x + acts.y * of_cells.y) / square : 1.0;
 }
 
 void lift_what_comes(const PoreCells& cells, std::span<const double> excess_pressure, double share,

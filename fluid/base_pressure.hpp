@@ -16,13 +16,15 @@ namespace listric::fluid {
 /// Gives nodes the columns that press_base() fills, and discs that of their lift.
 void add_base_pressure(dem::State& state);
 
-/// Volume of mud over that of the cells, in the mean that gives the sum of forces: a sand without a
-/// gradient counts for nothing.
-double lifted_share(const PoreCells& cells, std::span<const double> volume,
+/// Forces on wet discs over those that their cells would have, in the mean that gives their sum:
+/// mud's own volume over that of the cells, but a sand without a gradient counts for nothing, and
+/// what is cut of a lift is missing.
+double lifted_share(const PoreCells& cells, std::span<const dem::Point> force,
                     std::span<const double> excess_pressure);
 
 /// Adds the lift of the stratum that is to come, by the pressure where the cells at the ground end,
-/// to the forces on their discs, N. Where a cell ends above the ground, less is below it.
+/// to the forces on their discs, N. Where a cell ends above the ground, less is below it. Negative
+/// shares take it away.
 void lift_what_comes(const PoreCells& cells, std::span<const double> excess_pressure, double share,
                      std::vector<dem::Point>& force);
 

@@ -307,7 +307,7 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         return;
     const std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
     std::vector<Point> force = pore_forces(state, cells, volume, u);
-    const double share = surface_.loads_base ? lifted_share(cells, volume, u) : 1.0;
+    const double share = surface_.loads_base ? lifted_share(cells, force, u) : 1.0;
     if (surface_.loads_base)
         lift_what_comes(cells, u, share, force);
     const auto push_x = state.discs.get(dem::columns::push_x);
@@ -329,7 +329,11 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;
     if (!surface_.loads_base)
         return;
-    memory.get<double>(Sums::closure)[0] = press_base(state, base, cells, u, share, force);
+    // What the lift of single discs was cut by is missing below, too.
+    std::vector<Point> of_discs = force;
+    lift_what_comes(cells, u, -share, of_discs);
+    memory.get<double>(Sums::closure)[0] =
+        press_base(state, base, cells, u, lifted_share(cells, of_discs, u), force);
     const auto lift = state.discs.get(dem::columns::lift);
     for (std::size_t i = 0; i < force.size(); ++i) {
         lift[i] = force[i].y;

@@ -67,8 +67,9 @@ std::vector<Parameter> parameters() {
          "false leaves its top and bottom without bonds at all times: planes on which it may "
          "slip."},
         {"permeability_m2", at<&L::permeability>, "m2", between(1e-22, 1e-12), "",
-         "permeability across bedding, which was level; needs [pore_fluid]. None: no water flows "
-         "through the layer, and its pressure is that of water at rest",
+         "permeability across bedding, which was level; needs a table of pore fluid. None: no "
+         "water "
+         "flows through the layer, and its pressure is that of water at rest",
          "Raising it lets the layer drain the mud on it, and hand pressure sideways.",
          between(1e-18, 1e-13)},
         {"permeability_ratio", at<&L::permeability_ratio>, "", between(0.1, 1000), "",
@@ -346,9 +347,10 @@ void check_water(const Scene& scene, const L& layer, std::size_t item, const Ref
                                layer.name));
     if (layer.permeability && !make_parts(scene).water)
         refuse(path_of(item, "permeability_m2"),
-               fmt::format("is {}, and the scene has no water in its pores; add [pore_fluid] or "
-                           "leave it out",
-                           text(*layer.permeability)));
+               fmt::format(
+                   "is {}, and the scene has no water in its pores; add a table of pore fluid, or "
+                   "leave it out",
+                   text(*layer.permeability)));
 }
 
 void check_rock(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
