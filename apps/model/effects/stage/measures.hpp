@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/calendar.hpp"
 #include "dem/column.hpp"
 #include "dem/motion.hpp"
 #include "dem/state.hpp"
