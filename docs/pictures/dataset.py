@@ -1,6 +1,6 @@
 """Sections of a data set with their labels, the picture of docs/guides/dataset.md:
 
-    PYTHONPATH=apps/python python3 docs/pictures/dataset.py out/dataset-seismics 0003-seed=3 0011-seed=1 docs/pictures/tools/dataset.webp
+    PYTHONPATH=apps/python docs/pictures/dataset.py out/dataset-seismics SECTION... docs/pictures/tools/dataset.webp
 """
 
 import sys
@@ -34,9 +34,10 @@ def main(folder, *words):
         unit = "s" if "first_sample_s" in axes else "m"
         traces, samples = arrays["image"].shape
         left, top = axes["first_x_m"] / 1e3, axes[f"first_sample_{unit}"]
-        extent = (left, left + traces * axes["trace_spacing_m"] / 1e3, top + samples * axes[f"sample_interval_{unit}"], top)
+        bottom = top + samples * axes[f"sample_interval_{unit}"]
+        extent = (left, left + traces * axes["trace_spacing_m"] / 1e3, bottom, top)
         for panel in row:
-            panel.imshow(arrays["image"].T, cmap="gray", vmin=-3, vmax=3, extent=extent, aspect="auto", interpolation="bilinear")
+            panel.imshow(arrays["image"].T, cmap="gray", vmin=-3, vmax=3, extent=extent, aspect="auto")
         row[1].imshow(overlay(arrays["fault"]), extent=extent, aspect="auto", interpolation="nearest")
         row[0].set_ylabel("two-way time (s)" if unit == "s" else "depth (m)")
         row[0].set_title(f"{name}, {data.index[places[name]]['split']}", fontsize=9, loc="left")

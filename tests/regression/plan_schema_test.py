@@ -54,7 +54,8 @@ class PlanSchema(unittest.TestCase):
         return validator(kind).is_valid(tomllib.loads(text)), ": correct: " in done.stdout
 
     def test_take_every_shipped_plan(self):
-        plans = {"sweep": [*sorted((SOURCES / "docs/guides/cookbook").glob("*.toml")), SOURCES / "apps/studies/seismics.toml"],
+        plans = {"sweep": [*sorted((SOURCES / "docs/guides/cookbook").glob("*.toml")),
+                           SOURCES / "apps/studies/seismics.toml"],
                  "validation": [SOURCES / "apps/studies/validation.toml"],
                  "flexure": [SOURCES / "apps/studies/flexure.toml"]}
         self.assertGreaterEqual(len(plans["sweep"]), 3)

@@ -19,5 +19,5 @@ from .run import Run
 from .snapshot import Snapshot
 from .table import Column, Table
 
-__all__ = ["BadValue", "Column", "Dataset", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
-           "Table", "UnknownName", "call", "find_program", "simulate"]
+__all__ = ["BadValue", "Column", "Dataset", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError",
+           "Snapshot", "Table", "UnknownName", "call", "find_program", "simulate"]

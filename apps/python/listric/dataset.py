@@ -27,7 +27,10 @@ class Dataset:
 
     def __init__(self, folder, split="train", labels=("active", "resting"), transform=None):
         self.folder = Path(folder)
-        with reading(self.folder / "dataset.json", f"make it again: listric dataset PLAN -o {self.folder}"):
+        if not (self.folder / "dataset.json").exists():
+            raise RunError(f"{self.folder}: is no data set, or not made to its end: listric dataset PLAN "
+                           f"--output {self.folder}")
+        with reading(self.folder / "dataset.json", "make it again"):
             about = json.loads((self.folder / "dataset.json").read_text(encoding="utf-8"))
             splits, self.licence = list(about["splits"]), about["licence"]
             self._arrays = list(about["arrays"])
@@ -51,7 +54,7 @@ class Dataset:
         return pair if self._transform is None else self._transform(*pair)
 
     def section(self, number, *names) -> dict:
-        """Arrays of a section by name; without names all of them: image, fault, fault_throw, layer, strain, reflectivity."""
+        """Arrays of a section by name, without names all: image, fault, fault_throw, layer, strain, reflectivity."""
         path = self._path(number)
         with reading(path, "make it again"), h5py.File(path, "r") as file:
             for name in names:
@@ -60,7 +63,7 @@ class Dataset:
             return {name: file[name][:] for name in names or self._arrays}
 
     def numbers(self, number) -> dict:
-        """How a section was made, and its axes: first_x_m, trace_spacing_m, first_sample_s, sample_interval_s, frequency_hz, ..."""
+        """How a section was made, and its axes: first_x_m, trace_spacing_m, first_sample_s, frequency_hz, ..."""
         path = self._path(number)
         with reading(path, "make it again"), h5py.File(path, "r") as file:
             return {name: float(value) for name, value in file.attrs.items() if name not in ("sha256", "made_of")}

@@ -29,7 +29,7 @@ namespace {
 
 /// Numbers of a section that the index has.
 constexpr const char* indexed[] = {"extension_m", "frequency_hz", "quality", "noise",
-                                   "lateral_m",   "layer_m",      "faults",  "greatest_throw_m"};
+                                   "lateral_m",   "layer_m",      "faults",  "marked_throw_m"};
 
 std::string sha256_of(const std::string& text) {
     Sha256 hash;
@@ -136,8 +136,9 @@ private:
         const JsonObject summary = read_object(row.folder / "summary.json");
         row.state_hash = text_at(summary, "state_hash");
         row.made_by = archive::makers_of(row.folder);
-        const std::string made_of = fmt::format("state {}, run {}, settings {}, by {}",
-                                                row.state_hash, row.run, settings_hash_, version);
+        const std::string made_of =
+            fmt::format("state {}, run {}, settings {}, by {}, measures {}", row.state_hash,
+                        row.run, settings_hash_, version, measures_hash);
         const fs::path file = file_of(row);
         if (const auto there = read_section_record(file); there && there->made_of == made_of)
             return there;

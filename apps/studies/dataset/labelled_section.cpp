@@ -3,7 +3,7 @@
 #include "apps/archive/folder/run_history.hpp"
 #include "apps/archive/folder/setting.hpp"
 #include "apps/figures/sections/seismic_section.hpp"
-#include "apps/measures/faults/fault_offset.hpp"
+#include "apps/measures/faults/offset/fault_offset.hpp"
 #include "apps/measures/strata/owner_map.hpp"
 #include "dem/base/place.hpp"
 #include "dem/numbers/hypotenuse.hpp"

@@ -33,7 +33,7 @@ SectionRecord write_section(const fs::path& file, const LabelledSection& section
     for (const auto& [name, value] : section.numbers)
         record.numbers[name] = value;
     record.numbers["faults"] = static_cast<double>(section.faults);
-    record.numbers["greatest_throw_m"] = section.greatest_throw;
+    record.numbers["marked_throw_m"] = section.greatest_throw;
     for (const auto& [name, value] : record.numbers)
         write_number(hdf5, name.c_str(), value);
     record.sha256 = hash.hexadecimal();

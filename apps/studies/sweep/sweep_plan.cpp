@@ -5,7 +5,7 @@
 #include "apps/run/forecast/oversize.hpp"
 #include "apps/scene/toml/document.hpp"
 #include "apps/scene/toml/schema_parts.hpp"
-#include "apps/studies/dataset/dataset_plan.hpp"
+#include "apps/studies/dataset/dataset_settings.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/words/log.hpp"
 #include "apps/support/words/number.hpp"

@@ -128,9 +128,11 @@ TEST(FaultMask, IsAsWideAsStatedAndWithoutGaps) {
             const Point p{static_cast<double>(trace) - 2.0, static_cast<double>(k) - 1.0};
             const double length = std::hypot(28.0, 36.0);
             const double along = (28.0 * p.x + 36.0 * p.y) / length;
-            if (along >= 0.0 && along <= length)
+            const bool is_beside = along >= 0.0 && along <= length;
+            if (is_beside) {
                 EXPECT_EQ(dipping.contains({trace, k}),
                           std::abs(28.0 * p.y - 36.0 * p.x) / length <= 1.5);
+            }
         }
 }
 

@@ -112,5 +112,25 @@ TEST(Seismic, NoContrastNoReflection) {
         EXPECT_EQ(value, 0.0f);
 }
 
+// The highest place of f^2 exp(-f^2 / f0^2 - pi f t / Q), sought in steps of a hundredth of a
+// hertz.
+TEST(Seismic, LossStretchesTheWaveletAsItsSpectrumSays) {
+    const Wavelet wavelet{30.0, 80.0};
+    EXPECT_DOUBLE_EQ(wavelet.frequency_at(0.0), 30.0);
+    EXPECT_DOUBLE_EQ((Wavelet{30.0, 0.0}.frequency_at(2.0)), 30.0);
+    for (const double time : {0.5, 1.5, 3.0}) {
+        double best = 0.0, highest = 0.0;
+        for (double f = 5.0; f < 40.0; f += 0.01) {
+            const double size =
+                f * f * std::exp(-f * f / 900.0 - 3.14159265358979 * f * time / 80.0);
+            if (size > highest) {
+                highest = size;
+                best = f;
+            }
+        }
+        EXPECT_NEAR(wavelet.frequency_at(time), best, 0.02) << time;
+    }
+}
+
 } // namespace
 } // namespace listric::seismic_test

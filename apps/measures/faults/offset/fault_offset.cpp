@@ -1,4 +1,4 @@
-#include "apps/measures/faults/fault_offset.hpp"
+#include "apps/measures/faults/offset/fault_offset.hpp"
 
 #include "apps/measures/faults/fault_trace.hpp"
 #include "apps/measures/rigid_motion.hpp"
@@ -74,17 +74,18 @@ Polyline carried(const Polyline& line, const DiscPlaces& from, const DiscPlaces&
     return points;
 }
 
-/// Pieces of a line that are no nearer to others than `spacing`, m; nearer where they go on beyond
-/// an end.
+/// Pieces of a line that fall by 30 degrees or more and are no nearer to others than `spacing`, m;
+/// nearer where they go on beyond an end.
 std::vector<Polyline> pieces_off(const Polyline& line, const std::vector<OffsetFault>& others,
                                  double spacing) {
     std::vector<Polyline> pieces(1);
-    for (const Point p : line) {
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const Point p = line[k];
         const bool is_off = std::ranges::none_of(others, [&](const OffsetFault& other) {
             const PolylinePlace place = place_on(other.points, p);
             return std::abs(place.distance) < (place.beyond ? 0.3 : 1.0) * spacing;
         });
-        if (is_off)
+        if (is_off && !is_low_angle({0.0, 0.0}, chord_at(line, k)))
             pieces.back().push_back(p);
         else if (!pieces.back().empty())
             pieces.emplace_back();
@@ -130,18 +131,28 @@ std::vector<OffsetFault> offset_faults(const Setting& setting, const RigidBase& 
     const double unit = unit_of_faults(2.0 * now.mean_radius, setting.thickness);
     const double spacing = FaultTraceOptions{}.spacing * unit;
     const Cells cells(discs.x, discs.y, 3.0 * unit);
-    for (std::size_t k = older.size(); k-- > 0;) {
-        const DiscPlaces& end = k + 1 < older.size() ? older[k + 1] : discs;
-        ShearField field =
-            shear_field(older[k], end, setting.way_of_loose_sediment(end.travel), setting.motion);
+    const auto add = [&](ShearField field, const DiscPlaces& end, bool is_active,
+                         const FaultTraceOptions& options) {
         coarsen(field, unit);
-        for (const FaultTrace& trace : trace_faults(field, detachment))
+        for (const FaultTrace& trace : trace_faults(field, detachment, options))
             for (Polyline& piece :
                  pieces_off(carried(trace.points, end, discs, unit), faults, spacing)) {
                 std::vector<double> offset = offsets_along(piece, discs, cells, older, unit);
-                faults.push_back({std::move(piece), std::move(offset), &end == &discs});
+                faults.push_back({std::move(piece), std::move(offset), is_active});
             }
+    };
+    for (std::size_t k = older.size(); k-- > 0;) {
+        const DiscPlaces& end = k + 1 < older.size() ? older[k + 1] : discs;
+        add(shear_field(older[k], end, setting.way_of_loose_sediment(end.travel), setting.motion),
+            end, &end == &discs, {});
     }
+    // Faults of many small slips: strain of the whole run, with limits as of one window.
+    ShearField whole = shear_field(older.front(), discs, {}, setting.motion);
+    whole.window = Extension(strain_window);
+    FaultTraceOptions options;
+    options.least_length = 8.0;
+    options.least_contrast = 2.5;
+    add(std::move(whole), discs, false, options);
     return faults;
 }
 

@@ -19,7 +19,9 @@ struct OffsetFault {
 };
 
 /// The lines that are traced in the windows of a run, the last one first, each carried to where its
-/// footwall is now; of lines within the spacing of traces of each other the youngest stands.
+/// footwall is now, and those of the rock's strain since the start; of lines within the spacing of
+/// traces of each other the first stands. What falls by less than 30 degrees, as slip along
+/// bedding, is left out.
 ///
 /// The offset at a point is how far the two blocks beside it are apart in height at the earliest
 /// moment that has discs of both, if each is moved back there with the rigid motion of its discs:
