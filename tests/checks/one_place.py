@@ -61,9 +61,6 @@ class Exempt(NamedTuple):
 
 EXCEPTIONS = (
     Exempt("apps/scene/parameters/stages.cpp", "surface_work", "a stage switches deposition and erosion off"),
-    Exempt("apps/model/effects/layer.cpp", "needs [pore_fluid]", "rock that drains, drains pore water"),
-    Exempt("apps/model/effects/layer.cpp", "add [pore_fluid]", "rock that drains, drains pore water"),
-    Exempt("apps/model/effects/heat.cpp", "find<Stages>()", "names the pause whose steps are too long for maturity"),
     Exempt("apps/laboratory/pure_shear.cpp", "weakening_rate", "option --weakening-rates varies it"),
     Exempt("apps/laboratory/pure_shear.cpp", "healing_rate", "option --healing-rates varies it"),
 )
