@@ -47,7 +47,7 @@ private:
         std::ranges::sort(near_);
         const double r = sites_.radius[i];
         // Cells at the ground end there, or they would reach over all of it.
-        const auto foot = ground_.nearest(centre, sites_.reach[i]);
+        const auto foot = ground_.nearest(centre, reach);
         const double top = std::max(top_ - centre.y, foot ? foot->distance : 0.0) + sites_.reach[i];
         const PowerPolygon::Corner box[] = {
             {{ends_.left - centre.x, ends_.floor - centre.y}, facet_on_base},

@@ -10,12 +10,14 @@ namespace listric {
 Command add_dataset(CLI::App& program) {
     const auto request = std::make_shared<DatasetRequest>();
     CLI::App* command = add_call(
-        program, {"Many runs",
-                  "dataset",
-                  "make seismic sections with labelled faults of the runs of a plan",
-                  "docs/guides/dataset.md",
-                  {{{"dataset seismics --jobs 2", "the shipped plan, 1,000 sections"},
-                    {"dataset plan.toml --so-far", "of the runs that are there; make none"}}}});
+        program,
+        {"Many runs",
+         "dataset",
+         "make seismic sections with labelled faults of the runs of a plan",
+         "docs/guides/dataset.md",
+         {{{"dataset seismics --jobs 2", "the shipped plan, 1,000 sections"},
+           {"dataset plan.toml --so-far", "of the runs that are there; make none"},
+           {"dataset plan.toml --runs out/cluster", "of runs that another engine made"}}}});
     command->add_option("PLAN", request->plan, "plan of a sweep with [dataset]: its name or file")
         ->type_name("FILE")
         ->required();

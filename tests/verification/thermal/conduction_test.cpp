@@ -56,6 +56,26 @@ TEST(Conduction, ALinearFieldIsExact) {
     expect_balance(section, before);
 }
 
+// Rock of a flank that has sunk below what covers it has no points for as far as it has sunk.
+TEST(Conduction, ALinearFieldIsExactFarBelowTheGround) {
+    constexpr double width = 6e3, depth = 8e3, gradient = 0.024, cover = 2e3;
+    const Sites all = jittered_rows(width, depth, 500.0, 0.3);
+    Sites sites;
+    for (std::size_t k = 0; k < all.count(); ++k)
+        if (all.y[k] < -cover)
+            sites.add({all.x[k], all.y[k]}, all.radius[k], all.reach[k]);
+    Section section(std::move(sites), width, depth, 2.5, 2.7e6);
+    section.kept = {10.0, 10.0 + gradient * depth};
+    const auto linear = [](dem::Point p) { return 10.0 - gradient * p.y; };
+    section.set(linear);
+    const auto network = section.network();
+    for (int k = 0; k < 3; ++k)
+        section.step(network, 50e3);
+    for (std::size_t i = 0; i < section.sites.count(); ++i)
+        EXPECT_NEAR(section.temperature[i], linear({section.sites.x[i], section.sites.y[i]}),
+                    1e-9); // round-off
+}
+
 // What spoils it are heat sources in the middles of cells, which rows of 300 m resolve.
 TEST(Conduction, TheSteadyColumnWithRadiogenicHeat) {
     const thermal::HeatParameters p;
