@@ -29,7 +29,7 @@ def picture_file(path, width=400, height=150):
 
 class Draw(Browsed):
     has_model = False
-    most_bytes = 352_000
+    most_bytes = 360_000
 
     @classmethod
     def setUpClass(cls):

@@ -54,7 +54,7 @@ figures_at_m = [1000.0, 5500.0]
 
 class PageDraw(draw_test.Draw):
     has_model = True
-    most_bytes = 1_400_000
+    most_bytes = 1_500_000
 
     def test_05_forms_refuse_and_say_why(self):
         self.open()
