@@ -40,8 +40,7 @@ void Creep::begin(State& state) {
 
 void Creep::take_step(double seconds) {
     footwall_->take_step(seconds);
-    base_->take_compliance(condense(*footwall_, base_->interface().degree).compliance);
-    loads_->solve_anew(*footwall_);
+    take_stiffness(*footwall_, *base_, *loads_);
     step_ = seconds;
 }
 
@@ -64,13 +63,7 @@ bool Creep::apply(State& state, const RigidBase&) {
             begin_means_anew(state);
             loads_->put(state);
         }
-        footwall_->solve(left);
-        std::vector<double> moved = footwall_->interface_displacement();
-        moved.resize(base_->interface().unknowns());
-        std::ranges::copy(base_->forces_for(moved),
-                          footwall_load(state, name(), moved.size()).begin());
-        set_creep(state,
-                  {.step = step_, .stress = std::move(left.stress), .work = footwall_->work()});
+        put_stress_left(*footwall_, *base_, state, name(), std::move(left), step_);
     } catch (const fem::FootwallError& error) {
         throw NumericalFailure(std::string("elastic_base: the footwall cannot relax: ") +
                                error.what());

@@ -239,4 +239,18 @@ void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const Foo
     footwall.solve(load);
 }
 
+void take_stiffness(fem::Footwall& footwall, ElasticBase& base, FootwallLoads& loads) {
+    base.take_compliance(condense(footwall, base.interface().degree).compliance);
+    loads.solve_anew(footwall);
+}
+
+void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, State& state,
+                     const std::string& name, fem::Load left, double step) {
+    footwall.solve(left);
+    std::vector<double> moved = footwall.interface_displacement();
+    moved.resize(base.interface().unknowns());
+    std::ranges::copy(base.forces_for(moved), footwall_load(state, name, moved.size()).begin());
+    set_creep(state, {.step = step, .stress = std::move(left.stress), .work = footwall.work()});
+}
+
 } // namespace listric::coupling

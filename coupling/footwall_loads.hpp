@@ -130,6 +130,15 @@ private:
     std::shared_ptr<std::vector<LoadingEvent>> effects_;
 };
 
+/// Gives base and loads the stiffness that the footwall has taken. Throws fem::FootwallError.
+void take_stiffness(fem::Footwall& footwall, ElasticBase& base, FootwallLoads& loads);
+
+/// Puts stress that is left in the footwall's rock as the load of the event of a name, and
+/// remembers it. Throws fem::FootwallError.
+/// @param step  that rock relaxes in, s; 0 where it does not
+void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, dem::State& state,
+                     const std::string& name, fem::Load left, double step);
+
 /// Solves for the field that displaces the interface as it is, under the loads elsewhere. Throws
 /// fem::FootwallError.
 void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const FootwallLoads& loads,

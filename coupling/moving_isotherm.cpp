@@ -41,8 +41,7 @@ void MovingIsotherm::begin(State& state) {
 
 void MovingIsotherm::take(const std::vector<Point>& line) {
     footwall_->take_isotherm(isotherm_of(line));
-    base_->take_compliance(condense(*footwall_, base_->interface().degree).compliance);
-    loads_->solve_anew(*footwall_);
+    take_stiffness(*footwall_, *base_, *loads_);
     line_ = line;
 }
 
@@ -72,13 +71,7 @@ bool MovingIsotherm::apply(State& state, const RigidBase& rigid) {
         base_->express(state);
         begin_means_anew(state);
         loads_->put(state);
-        footwall_->solve(left);
-        std::vector<double> moved = footwall_->interface_displacement();
-        moved.resize(base_->interface().unknowns());
-        std::ranges::copy(base_->forces_for(moved),
-                          footwall_load(state, name(), moved.size()).begin());
-        set_creep(state,
-                  {.step = 0.0, .stress = std::move(left.stress), .work = footwall_->work()});
+        put_stress_left(*footwall_, *base_, state, name(), std::move(left), 0.0);
         set_isotherm(state, {line_, state.clock.travel.m});
     } catch (const fem::FootwallError& error) {
         throw NumericalFailure(
