@@ -7,33 +7,31 @@ namespace listric::thermal {
 
 using namespace dem;
 
-/// From the ground down. Sites are wider apart the deeper they are.
+/// From above down. Sites are wider apart the deeper they are.
 std::vector<std::size_t> TemperatureColumns::sites_about(double x) const {
     std::vector<std::size_t> column;
     for (std::size_t i = 0; i < cells_.sites.count(); ++i)
         if (!cells_.is_new[i] && std::abs(cells_.sites.x[i] - x) <= 0.4 * cells_.sites.reach[i])
             column.push_back(i);
-    std::ranges::sort(column, {}, [&](std::size_t i) {
-        return ground_.depth({cells_.sites.x[i], cells_.sites.y[i]});
-    });
+    std::ranges::sort(column, std::ranges::greater(),
+                      [&](std::size_t i) { return cells_.sites.y[i]; });
     return column;
 }
 
 std::optional<Point> TemperatureColumns::crossing(double x, double temperature) const {
     const std::vector<std::size_t> column = sites_about(x);
-    double depth = 0.0, before = surface_;
+    // By height: beside a cliff a site's own depth is none of this column's.
+    double y = ground_.height(x), before = surface_;
     for (const std::size_t i : column) {
-        const double at = cells_.temperature[i];
-        const double its = ground_.depth({cells_.sites.x[i], cells_.sites.y[i]});
-        if (at >= temperature && its > depth) {
+        const double at = cells_.temperature[i], its = cells_.sites.y[i];
+        if (its >= y)
+            continue;
+        if (at >= temperature) {
             const double share = at > before ? (temperature - before) / (at - before) : 1.0;
-            depth += std::clamp(share, 0.0, 1.0) * (its - depth);
-            return Point{x, ground_.height(x) - depth};
+            return Point{x, y + std::clamp(share, 0.0, 1.0) * (its - y)};
         }
-        if (its > depth) {
-            depth = its;
-            before = at;
-        }
+        y = its;
+        before = at;
     }
     return std::nullopt;
 }

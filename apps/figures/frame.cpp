@@ -11,6 +11,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/model/effects/stage/measures.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/scene/toml/json_text.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/files/file.hpp"
@@ -270,8 +271,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
             frame["strata_a"].push_back(age);
     for (const LayerFacts& layer : now.parts.layers)
         frame["rock_layers"].push_back(layer.name);
-    if (!now.parts.base.motion.stages.empty())
-        frame["way_m"] = state.clock.travel.m;
+    for (const auto& [name, way] : ways(now.parts.base.motion, state.clock.travel))
+        frame[name] = way;
     if (now.parts.sediment)
         frame["level_m"] =
             now.parts.sediment->surface.at(calendar.age(state.clock.travel)).height(0.0);
@@ -297,6 +298,15 @@ nlohmann::json said_in_figures(const Observation& now) {
 }
 
 } // namespace
+
+std::map<std::string, double> ways(const dem::Motion& motion, Travel travel) {
+    std::map<std::string, double> all;
+    if (!motion.stages.empty())
+        all["way_m"] = travel.m;
+    if (const auto way = effects::stage::wall_way(motion, travel))
+        all["wall_m"] = way->m;
+    return all;
+}
 
 void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder,
                  const std::optional<Underlay>& underlay, const std::optional<MomentNames>& names) {

@@ -5,7 +5,9 @@
 #include "apps/support/words/moment_names.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace listric {
 
@@ -14,6 +16,10 @@ struct Underlay {
     std::filesystem::path image;                             ///< PNG
     double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0; ///< x, depth, m
 };
+
+/// Where the wall's motion has stages, the run's clock as `way_m`, and behind a pause the wall's
+/// own way as `wall_m`.
+std::map<std::string, double> ways(const dem::Motion& motion, dem::Travel travel);
 
 /// Writes the arrays of one moment, which apps/figures/python/frame.py describes, those of its
 /// effects, and frame.json into a folder of their own. Throws StorageError.

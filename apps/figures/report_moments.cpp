@@ -12,6 +12,7 @@
 #include "apps/measures/strata/cohesion.hpp"
 #include "apps/measures/strata/horizons.hpp"
 #include "apps/measures/strata/rock.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/scene/parameters/stage.hpp"
 #include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/encoding.hpp"
@@ -390,9 +391,12 @@ void ReportMoments::add(const Observation& now, const SectionLines& lines) {
         const std::vector<Stream> to_pack = streams(now, lines.behaviour, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
-        const std::string travel = now.parts.base.motion.stages.empty()
-                                       ? ""
-                                       : fmt::format("\"{}\":{},", travel_column, clock.travel.m);
+        const dem::Motion& motion = now.parts.base.motion;
+        std::string travel;
+        if (!motion.stages.empty())
+            travel = fmt::format("\"{}\":{},", travel_column, clock.travel.m);
+        if (const auto way = effects::stage::wall_way(motion, clock.travel))
+            travel += fmt::format("\"wall_m\":{},", way->m);
         moments_.push_back(
             {fmt::format("\"extension_m\":{},{}\"time_a\":{},\"discs\":{},"
                          "\"ends\":{},\"streams\":{{{}}}",

@@ -1,5 +1,6 @@
 #include "apps/figures/well_figure.hpp"
 
+#include "apps/model/model.hpp"
 #include "apps/scene/parameters/effect.hpp"
 #include "apps/scene/toml/json_text.hpp"
 #include "apps/support/files/file.hpp"
@@ -82,14 +83,17 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
             dry.erase(found["x_m"].get<double>());
         if (list.empty())
             continue;
-        frames.push_back({{"scene", run.scene.name},
-                          {"extension_km", run.names.kilometres(snapshot_extension(path))},
-                          {"options", wells.empty() ? "" : fmt::format("-x-{}m", listed(wells))},
-                          {"extension_m", moment.state.clock.extension.m},
-                          {"wells", list},
-                          {"profiles", profiles_json(now)}});
-        if (!run.parts.base.motion.stages.empty())
-            frames.back()["way_m"] = moment.state.clock.travel.m;
+        nlohmann::ordered_json frame{
+            {"scene", run.scene.name},
+            {"extension_km", run.names.kilometres(snapshot_extension(path))},
+            {"options", wells.empty() ? "" : fmt::format("-x-{}m", listed(wells))},
+            {"extension_m", moment.state.clock.extension.m},
+            {"time_a", make_calendar(run.scene).age(moment.state.clock.travel)},
+            {"wells", list},
+            {"profiles", profiles_json(now)}};
+        for (const auto& [name, way] : ways(run.parts.base.motion, moment.state.clock.travel))
+            frame[name] = way;
+        frames.push_back(std::move(frame));
     }
     if (frames.empty())
         return false;

@@ -7,6 +7,7 @@
 #include "apps/archive/folder/summary.hpp"
 #include "apps/archive/tables/dictionary.hpp"
 #include "apps/archive/tables/rock_record.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/progress_line.hpp"
 #include "apps/scene/scene_file.hpp"
@@ -112,8 +113,9 @@ std::string RunView::place_text(std::optional<double> interval) const {
             length = metres + 0.0;
         return interval ? length_text(length, *interval) : length_text(length);
     };
-    return has_stages() ? fmt::format("{} of net extension after {} of wall motion",
-                                      text(extension().m), text(travel().m))
+    return has_stages() ? fmt::format("{} of net extension after {} of {}", text(extension().m),
+                                      text(travel().m),
+                                      effects::stage::name_of_way(parts.base.motion, travel()))
                         : fmt::format("{} of extension", text(extension().m));
 }
 

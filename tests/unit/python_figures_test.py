@@ -563,21 +563,25 @@ class Drawing(Folder):
         frames_ = [self.frame(meta) for meta in self.STAGES]
         self.assertEqual([page.moment_text(frame) for frame in frames_], after)
         [headline] = [text.get_text() for text in sheet.draw_sheet(frames_).texts if text.get_text().startswith("a title")]
-        self.assertEqual(headline, f"a title: {after[0]} and {after[1]}")
+        self.assertEqual(headline, f"a title: {page.timed_text(frames_[0])} and {page.timed_text(frames_[1])}")
         for least in (-0.0116, 0.0, 0.0093):    # 3 km out and back, to half a cycle
             there = self.frame({"extension_m": least, "way_m": 6000.0, "extension_km": "6.0"})
             self.assertEqual(page.moment_text(there), "0 km of net extension after 6.0 km of wall motion")
         plain = [self.frame({"extension_m": 1000.0 * km}) for km in (5.0, 10.0)]
         self.assertIn("a title: 5.0 and 10.0 km of extension", [text.get_text() for text in sheet.draw_sheet(plain).texts])
         columns = {name: [1.0, 2.0] for name in ("depth_m", *(line[0] for _, lines in wells.PANELS for line in lines))}
-        well = {"scene": "lis1", "wells": [{"name": "depocentre", "x_m": 100.0, "columns": columns}]}
-        self.assertEqual(wells.draw({**well, **self.STAGES[1]}).texts[0].get_text(), f"LIS1, {after[1]}")
-        self.assertEqual(wells.draw({**well, "extension_km": "2.0"}).texts[0].get_text(), "LIS1, 2.0 km of extension")
+        paused = self.frame({"extension_m": 5000.0, "way_m": 12000.0, "wall_m": 5000.0, "extension_km": "12.0", "time_a": 60e6})
+        self.assertEqual(page.timed_text(paused), "5 km of extension, 60.00 Myr")    # a pause is no motion of the wall
+        paused = self.frame({"extension_m": 1000.0, "way_m": 12000.0, "wall_m": 9000.0, "extension_km": "12.0"})
+        self.assertEqual(page.moment_text(paused), "1 km of net extension after 9 km of wall motion")
+        well = {"scene": "lis1", "time_a": 2e6, "wells": [{"name": "depocentre", "x_m": 100.0, "columns": columns}]}
+        self.assertEqual(wells.draw({**well, **self.STAGES[1]}).texts[0].get_text(), f"LIS1, {after[1]}, 2.00 Myr")
+        self.assertEqual(wells.draw({**well, "extension_km": "2.0"}).texts[0].get_text(), "LIS1, 2.0 km of extension, 2.00 Myr")
 
     def test_wells_have_the_panels_of_what_they_have(self):
         columns = {"depth_m": [100.0, 200.0], "temperature_c": [20.0, 30.0], "max_temperature_c": [20.0, 30.0],
                    "vitrinite_percent": [0.2, 0.3], "porosity": [0.4, 0.3]}
-        frame = {"scene": "lis1", "extension_km": "2.0", "wells": [{"name": "flank", "x_m": 100.0, "columns": columns}],
+        frame = {"scene": "lis1", "extension_km": "2.0", "time_a": 0.0, "wells": [{"name": "flank", "x_m": 100.0, "columns": columns}],
                  "profiles": [{"label": "heat flow", "unit": "mW/m2", "x_m": [0.0, 1e3], "values": [50.0, 60.0]}]}
         drawn = wells.draw(frame)
         self.assertEqual([ax.get_xlabel() for ax in drawn.axes],
@@ -599,7 +603,7 @@ class Drawing(Folder):
                          "0.012 and 0.016 m of extension")
         self.assertEqual(page.extension_text(frame), "0.000012")     # as in names of files
         back = self.frame({**meta, "way_m": 0.02, "extension_m": 0.0043, "extension_km": "0.00002"}, **small)
-        self.assertEqual(journal.moment_line(back), "0.0043 m of net extension after 0.02 m of wall motion, 1.2 a")
+        self.assertEqual(page.timed_text(back), "0.0043 m of net extension after 0.02 m of wall motion, 1.2 a")
         self.assertIn("After 0.012 m of extension at 1 cm/yr (1.2 a): ", caption.caption(["bonds"], None, frame, plot.Order()))
 
     def test_times_are_years_in_short_runs_and_tell_neighbours_apart(self):
@@ -610,7 +614,7 @@ class Drawing(Folder):
             with self.subTest(times=times):
                 self.assertEqual(page.time_texts(times, gap, end), (texts.split()[:-1], texts.split()[-1]))
         frame = self.frame({"time_a": 350.0, "end_a": 700.0, "interval_a": 350.0})
-        for told in (page.headline(frame), journal.moment_line(frame), caption.caption(["bonds"], None, frame, plot.Order())):
+        for told in (page.headline(frame), page.timed_text(frame), caption.caption(["bonds"], None, frame, plot.Order())):
             self.assertIn("350 a", told)
         self.assertTrue(page.headline(self.frame({"time_a": 2.06e5, "interval_a": 6e3, "end_a": 1e6})).endswith(", 0.206 Myr"))
         self.assertTrue(page.headline(self.frame()).endswith(", 0.20 Myr"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from axes import EXAGGERATED, FOOTWALL_WORD, exaggeration, exaggeration_text
 from frame import Frame
-from page import add_axes, extension_text, letter, moment_text, name_distance, time_text, without_source
+from page import add_axes, extension_text, letter, name_distance, timed_text, without_source
 from panels import panel_of
 from plot import FAINT, Figure, Order, new_figure
 
@@ -259,11 +259,7 @@ def headline_lines(frame: Frame, width: float) -> list[tuple[str, str]]:
     """Lines of the description and of the moment, with their weights."""
     title = without_source(str(frame.meta.get("title") or frame.meta["scene"]))
     room = 0.88 * (width - 0.06)   # bold letters are wider
-    return [(line, weight) for text, weight in ((title, "bold"), (moment_line(frame), "normal")) for line in folded(text, room, POINTS).split("\n")]
-
-
-def moment_line(frame: Frame) -> str:
-    return f"{moment_text(frame)}, {time_text(frame)}"
+    return [(line, weight) for text, weight in ((title, "bold"), (timed_text(frame), "normal")) for line in folded(text, room, POINTS).split("\n")]
 
 
 def save_print(frame: Frame, order: Order) -> tuple[str, Figure, list[str]]:

@@ -50,20 +50,30 @@ def moment_text(frame: Frame) -> str:
     return moment_words(frame.meta, extension_text(frame), unit_of(frame))
 
 
+def timed_text(frame: Frame) -> str:
+    """How far the wall is, and when: the wall stands in a pause."""
+    return f"{moment_text(frame)}, {time_text(frame)}"
+
+
 def moments_text(frames: Sequence[Frame]) -> str:
     """How far the wall is in each of the frames: "5.0 and 10.0 km of extension"."""
     if any("way_m" in frame.meta for frame in frames):
-        return " and ".join(moment_text(frame) for frame in frames)
+        return " and ".join(map(timed_text, frames))
     unit = unit_of(frames[-1])
     return " and ".join(length_text(extension_text(frame), unit) for frame in frames) + f" {unit} of extension"
 
 
 def moment_words(meta: dict, way: str, unit: str = "km") -> str:
-    """How far the wall is, told in a unit, after a way in km, where `meta` has its extension_m and way_m, or no way_m."""
+    """How far the wall is, told in a unit, after a way in km, where `meta` has its extension_m and way_m, or no way_m;
+    wall_m is the way without the pauses that way_m counts."""
     if "way_m" not in meta:
         return f"{length_text(way, unit)} {unit} of extension"
     least = 1e-4 * abs(meta["way_m"])   # a cycle ends near a round number: what is below that is 0
     extension = length_text(f"{round(meta['extension_m'] / least) * least / 1000 + 0.0:.3g}" if least else "0", unit)
+    if "wall_m" in meta:
+        way = f"{meta['wall_m'] / 1000:.4g}"
+        if abs(meta["wall_m"] - meta["extension_m"]) < least:
+            return f"{extension} {unit} of extension"
     return f"{extension} {unit} of net extension after {length_text(way, unit)} {unit} of wall motion"
 
 

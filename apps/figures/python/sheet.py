@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from axes import LEGEND
 from frame import Frame
 from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
-                  footer, letter, moment_text, moments_text, name_distance, set_ticks, title_of, write_around)
+                  footer, letter, timed_text, moments_text, name_distance, set_ticks, title_of, write_around)
 from panels import PANELS
 from plot import Figure, Order, new_figure, save
 from scales import share_scales
@@ -84,7 +84,7 @@ def mark_letter(ax, name: str) -> None:
 
 
 def name_column(ax, frame: Frame) -> None:
-    ax.annotate(moment_text(frame), (0.5, 1), (0, 26),
+    ax.annotate(timed_text(frame), (0.5, 1), (0, 26),
                 xycoords="axes fraction", textcoords="offset points", ha="center",
                 fontsize=11.5, weight="semibold", annotation_clip=False)
 

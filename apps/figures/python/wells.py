@@ -4,12 +4,13 @@ temperature and maturity by depth; above them what is measured along the section
 
 Usage: wells.py DATA_DIR FIGURES_DIR ORDER
 
-Reads DATA_DIR/wells.json: frames, each with scene, extension_km, options in the name of its figure, in a
+Reads DATA_DIR/wells.json: frames, each with scene, extension_km, time_a, options in the name of its figure, in a
 scene with stages also extension_m and way_m, and wells; a well has a name, x_m and columns of numbers from the ground down.
 A frame may have profiles: label, unit, x_m and values along the section.
 Writes well-<extension>km and options under a temporary name and renames it.  On bad input: one line on stderr,
 exit status 2.
 """
+import math
 import os
 import sys
 
@@ -18,7 +19,7 @@ sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import (FAINT, INK, STYLE, InputError, matplotlib, new_figure, read_json, read_order, run,
                   save, without_frame)
 
-from page import moment_words
+from page import moment_words, time_texts
 
 import numpy as np
 
@@ -123,9 +124,9 @@ def draw(frame: dict):
     wells, profiles = frame["wells"], frame.get("profiles", [])
     height = 0.5 + 4.4 * len(wells) + 2.6 * len(profiles)
     figure = new_figure(11.5, height, 120)
+    [time], unit = time_texts([frame["time_a"]], math.inf, frame["time_a"])
     figure.text(0.01, 1.0 - 0.1 / height,
-                f"{frame['scene'].upper()}, {moment_words(frame, frame['extension_km'])}", fontsize=13,
-                weight="bold", va="top", color=INK)
+                f"{frame['scene'].upper()}, {moment_words(frame, frame['extension_km'])}, {time} {unit}", fontsize=13, weight="bold", va="top", color=INK)
     columns = max(len(panels_of(columns_of(well))) for well in wells)
     grid = figure.add_gridspec(len(profiles) + len(wells), columns,
                                height_ratios=[2.6] * len(profiles) + [4.4] * len(wells))

@@ -145,9 +145,10 @@ class Run {
 /** The clock of a run: with stages of motion the wall's way back and forth, m, else its extension. */
 function travelOf(moment) { return moment.travel_m ?? moment.extension_m; }
 
-/** "5.00 km", with stages "1.00 km net after 9.00 km of wall motion" */
+/** "5.00 km", with stages "1.00 km net after 9.00 km of wall motion"; a pause is no motion */
 function wayText(moment) {
-  return placeText(moment.extension_m) + ("travel_m" in moment ? ` net after ${placeText(moment.travel_m)} of wall motion` : "");
+  const net = placeText(moment.extension_m), way = placeText(moment.wall_m ?? moment.travel_m ?? 0);
+  return "wall_m" in moment && way === net || !("travel_m" in moment) ? net : `${net} net after ${way} of wall motion`;
 }
 
 /** A CSV table of numbers by its columns; an empty field is NaN. */

@@ -3,6 +3,7 @@
 #include "apps/model/base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
+#include "apps/model/effects/stage/pauses.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/parameters/stage.hpp"
@@ -95,8 +96,8 @@ std::optional<std::string> beyond_elasticity(const fem::Guard& guard, const std:
 std::string moment_text(const Clock& clock, const Motion& motion) {
     return motion.stages.empty()
                ? fmt::format("{:.0f} m of extension", clock.extension.m)
-               : fmt::format("{:.0f} m of net extension after {:.0f} m of wall motion",
-                             clock.extension.m, clock.travel.m);
+               : fmt::format("{:.0f} m of net extension after {:.0f} m of {}", clock.extension.m,
+                             clock.travel.m, effects::stage::name_of_way(motion, clock.travel));
 }
 
 class ElasticBaseDriver final : public BaseDriver {

@@ -3,8 +3,11 @@
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/picks/target_csv.hpp"
+#include "dem/columns.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace listric::effects::footwall_erosion {
 
@@ -64,6 +67,23 @@ std::string explain(const Scene& scene, EffectList) {
                        erosion.sediment_density);
 }
 
+/// From the footwall's surface, which sections draw level and as if nothing were eroded, up to the
+/// target.
+std::vector<double> cover_band(const Observation& now) {
+    constexpr double shown = 4e3; // m beside the breakaway
+    const dem::ConstBaseNodeColumns nodes = dem::base_node_columns(now.state);
+    if (nodes.x.empty())
+        return {};
+    const P& p = *now.scene.find<P>();
+    const dem::TargetLine target =
+        dem::Target(p.level, p.target).at(make_calendar(now.scene).age(now.state.clock.travel));
+    const double rock = nodes.y[0] + nodes.uy[0], end = nodes.x[0] + nodes.ux[0];
+    std::vector<double> rows;
+    for (const double x : {end - shown, end})
+        rows.insert(rows.end(), {x, rock, std::max(rock, target.height(x))});
+    return rows;
+}
+
 } // namespace
 
 Works works() { return {}; }
@@ -86,6 +106,7 @@ const Effect& effect() {
                       "area of rock eroded from the footwall left of the breakaway"},
                      {coupling::footwall_deposited_name, "m2", "sediment on the footwall",
                       "area of sediment on the footwall left of the breakaway"}},
+        .layers = {{"flank", LayerKind::band, "sediment on the footwall", "#e5d6a8", cover_band}},
     };
     return effect;
 }

@@ -87,6 +87,17 @@ OwnPlaces own_places(const State& state, bool base_is_prescribed) {
 
 } // namespace
 
+std::optional<Extension> wall_way(const Motion& motion, Travel travel) {
+    for (const MotionStage& stage : motion.stages)
+        if (stage.slope == 0.0 && stage.start < travel)
+            return motion.way(Travel(), travel);
+    return std::nullopt;
+}
+
+std::string_view name_of_way(const Motion& motion, Travel travel) {
+    return wall_way(motion, travel) ? "travel" : "wall motion";
+}
+
 PauseRecord::PauseRecord(const Motion& motion) : Observer("pause", never, Stage::load) {
     for (const MotionStage& one : motion.stages) {
         if (!rests(one))

@@ -5,12 +5,20 @@
 #include "dem/motion.hpp"
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace listric::effects::stage {
 
 /// Measure that the report judges.
 inline constexpr const char* rest_strain_windows = "rest_strain_windows";
+
+/// Way of the right wall, back and forth, up to a travel behind a pause; none before one, where the
+/// travel is that way.
+std::optional<dem::Extension> wall_way(const dem::Motion& motion, dem::Travel travel);
+
+/// What a travel is: "wall motion", and behind a pause, which adds to it, "travel".
+std::string_view name_of_way(const dem::Motion& motion, dem::Travel travel);
 
 /// Strain and displacement of rock from before the rift while base and wall rest.
 struct Unrest {
