@@ -418,7 +418,8 @@ def layer_panel(name: str):
         inked = layer.rows > 0.0
         rgb[inked] = colours(layer.rows[inked])[:, :3]
         draw_discs(ax, frame, rgb)
-        bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
+        bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize(),
+            extend="max" if (layer.rows >= 1.0).any() else "neither", extendfrac=0.04)
         arrows = draw_arrows(ax, frame, layer)
         describe(ax, frame, layer.label.capitalize(),
                  [(swatch(NO_SEDIMENT), "pre-rift"), *arrows, *draw_faults(ax, frame)])
