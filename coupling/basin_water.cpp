@@ -1,6 +1,7 @@
 #include "coupling/basin_water.hpp"
 
 #include "coupling/interface_loads.hpp"
+#include "dem/base/ground_level.hpp"
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
 
@@ -15,7 +16,8 @@ using namespace dem;
 
 namespace {
 
-constexpr const char* in_pores = "pore_water"; // of the loads on the interface
+// Of the loads on the interface.
+constexpr const char *in_basin = "basin_water", *in_pores = "pore_water", *of_film = "film";
 
 std::size_t columns_of(const ConstDiscColumns& d, double width) {
     return static_cast<std::size_t>(std::max(0.0, std::ranges::max(d.x) / width));
@@ -68,14 +70,48 @@ std::vector<double> pore_water(const State& state, double level, const PoreSpace
     return water;
 }
 
-double water_weight(const State& state) { return downward(interface_loads(state)); }
+FilmColumns film_columns(const SedimentFilm& film, const State& state, const RigidBase& base,
+                         double level, double column_width) {
+    constexpr int samples = 4; // the smooth ground bends twice in a column
+    FilmColumns columns;
+    const auto now = film.now(state, base);
+    if (!now)
+        return columns;
+    columns.porosity = now->porosity;
+    const GroundLevel discs(state);
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    for (double left = 0.0; left < now->right; left += column_width) {
+        double thickness = 0.0, wet = 0.0;
+        for (int k = 0; k < samples; ++k) {
+            const double x = left + (k + 0.5) / samples * column_width;
+            const double ground = std::max(discs.height(x), height_at(nodes, x));
+            const double here = now->thickness(x, ground);
+            thickness += here / samples;
+            wet += std::clamp(level - ground, 0.0, here) / samples;
+        }
+        columns.thickness.push_back(thickness);
+        columns.wet.push_back(wet);
+    }
+    return columns;
+}
 
-double pore_water_weight(const State& state) {
+namespace {
+
+/// Weight of an effect's load on the interface; 0 without.
+double weight_of(const State& state, const char* effect) {
     const auto loads = state.base_memory.find("interface_loads");
-    return loads != state.base_memory.end() && loads->second.has(in_pores)
-               ? downward(loads->second.get<double>(in_pores))
+    return loads != state.base_memory.end() && loads->second.has(effect)
+               ? downward(loads->second.get<double>(effect))
                : 0.0;
 }
+
+} // namespace
+
+double water_weight(const State& state) {
+    return weight_of(state, in_basin) + pore_water_weight(state);
+}
+
+double pore_water_weight(const State& state) { return weight_of(state, in_pores); }
 
 std::vector<double> flank_depths(const SurfaceResponse& response, std::span<const double> dry,
                                  double level, double weight) {
@@ -100,69 +136,80 @@ std::vector<double> flank_depths(const SurfaceResponse& response, std::span<cons
     return depth;
 }
 
-BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
-                       double gravity, double column_width, const Calendar& calendar,
-                       const std::optional<PoreSpace>& pores, std::optional<Flank> flank)
-    : Event("basin_water", {parameters.interval, calendar}, dem::Stage::load),
-      parameters_(parameters), pores_(pores), flank_(std::move(flank)), gravity_(gravity),
-      column_width_(column_width), nodes_(interface.x.size()) {
-    memory.add<double>("start_depth_m", "", 0.0);
-    memory.add<double>("flank_depth_m", "m", 0.0);
-    for (double x = 0.0; x + column_width <= interface.x.back(); x += column_width)
-        per_pascal_.push_back(pressure_forces(interface, x, x + column_width));
+InterfaceColumns::InterfaceColumns(const Interface& interface, double width)
+    : width_(width), nodes_(interface.x.size()) {
+    for (double x = 0.0; x + width <= interface.x.back(); x += width)
+        per_pascal_.push_back(pressure_forces(interface, x, x + width));
 }
 
-void BasinWater::begin(State& state) {
-    if (!parameters_.flank_alone)
-        interface_load(state, name(), 2 * nodes_);
-    if (pores_ && !parameters_.flank_alone)
-        interface_load(state, in_pores, 2 * nodes_);
-    if (flank_)
-        footwall_load(state, name(), 2 * nodes_);
-    const std::vector<double> depth = water_depths(state, parameters_.level, column_width_);
-    memory.resize(flank_ ? flank_->response.x.size() : 1);
-    std::ranges::fill(memory.get<double>("start_depth_m"),
-                      std::accumulate(depth.begin(), depth.end(), 0.0) /
-                          static_cast<double>(depth.size()));
-}
-
-/// Puts pressures on the columns, downward, Pa.
-void BasinWater::load_columns(State& state, std::string_view column,
-                              std::span<const double> pressure) const {
-    const std::span<double> load = interface_load(state, column, 2 * nodes_);
+void InterfaceColumns::put(State& state, std::string_view effect,
+                           std::span<const double> pressure) const {
+    const std::span<double> load = interface_load(state, effect, unknowns());
     std::ranges::fill(load, 0.0);
     for (std::size_t k = 0; k < std::min(pressure.size(), per_pascal_.size()); ++k)
         for (std::size_t n = 0; n < nodes_; ++n)
             load[2 * n + 1] -= pressure[k] * per_pascal_[k][n];
 }
 
+BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
+                       double gravity, double column_width, const Calendar& calendar,
+                       const std::optional<PoreSpace>& pores, std::optional<Flank> flank)
+    : Event(in_basin, {parameters.interval, calendar}, dem::Stage::load), parameters_(parameters),
+      pores_(pores), flank_(std::move(flank)), gravity_(gravity),
+      columns_(interface, column_width) {
+    memory.add<double>("start_depth_m", "", 0.0);
+    memory.add<double>("flank_depth_m", "m", 0.0);
+}
+
+void BasinWater::begin(State& state) {
+    if (!parameters_.flank_alone)
+        interface_load(state, in_basin, columns_.unknowns());
+    if (pores_ && !parameters_.flank_alone)
+        interface_load(state, in_pores, columns_.unknowns());
+    if (flank_)
+        footwall_load(state, name(), columns_.unknowns());
+    const std::vector<double> depth = water_depths(state, parameters_.level, columns_.width());
+    memory.resize(flank_ ? flank_->response.x.size() : 1);
+    std::ranges::fill(memory.get<double>("start_depth_m"),
+                      std::accumulate(depth.begin(), depth.end(), 0.0) /
+                          static_cast<double>(depth.size()));
+}
+
 /// Water in the basin and in the pores of its sediment.
-void BasinWater::fill_basin(State& state) const {
+void BasinWater::fill_basin(State& state, const RigidBase& base) const {
     const double start = memory.get<double>("start_depth_m")[0];
-    const double weight = parameters_.density * gravity_;
-    std::vector<double> pressure = water_depths(state, parameters_.level, column_width_);
+    const double weight = parameters_.density * gravity_, width = columns_.width();
+    std::vector<double> depth = water_depths(state, parameters_.level, width);
+    FilmColumns film;
+    if (parameters_.film)
+        film = film_columns(*parameters_.film, state, base, parameters_.level, width);
+    film.wet.resize(std::max(depth.size(), film.wet.size()), 0.0);
     // Ground that was flooded at the start loses load where it rises.
-    for (double& p : pressure)
-        p = weight * (parameters_.level > 0.0 ? p - start : std::max(0.0, p - start));
-    load_columns(state, name(), pressure);
+    for (std::size_t k = 0; k < depth.size(); ++k) {
+        depth[k] -= start + film.wet[k];
+        depth[k] = weight * (parameters_.level > 0.0 ? depth[k] : std::max(0.0, depth[k]));
+    }
+    columns_.put(state, in_basin, depth);
     if (pores_) {
-        pressure = pore_water(state, parameters_.level, *pores_, column_width_);
-        for (double& p : pressure)
-            p *= weight / column_width_;
-        load_columns(state, in_pores, pressure);
+        std::vector<double> pressure = pore_water(state, parameters_.level, *pores_, width);
+        pressure.resize(std::max(pressure.size(), film.wet.size()), 0.0);
+        film.wet.resize(pressure.size(), 0.0);
+        for (std::size_t k = 0; k < pressure.size(); ++k)
+            pressure[k] = pressure[k] * (weight / width) + weight * film.porosity * film.wet[k];
+        columns_.put(state, in_pores, pressure);
     }
 }
 
-bool BasinWater::apply(State& state, const RigidBase&) {
+bool BasinWater::apply(State& state, const RigidBase& base) {
     if (!parameters_.flank_alone)
-        fill_basin(state);
+        fill_basin(state, base);
     if (flank_) {
         const double weight = parameters_.density * gravity_;
         std::ranges::copy(
             flank_depths(flank_->response, flank_->height(state), parameters_.level, weight),
             memory.get<double>("flank_depth_m").begin());
         std::ranges::copy(superpose(flank_pressure(), flank_->forces),
-                          footwall_load(state, name(), 2 * nodes_).begin());
+                          footwall_load(state, name(), columns_.unknowns()).begin());
     }
     return false;
 }
@@ -232,6 +279,42 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
         return effect;
     };
     return {surface_loads(knots), make_event};
+}
+
+FilmLoad::FilmLoad(const Interface& interface, const FilmLoadParameters& parameters)
+    : Event(of_film, film_schedule(parameters.film), dem::Stage::load), parameters_(parameters),
+      columns_(interface, parameters.column_width) {}
+
+void FilmLoad::begin(State& state) { interface_load(state, name(), columns_.unknowns()); }
+
+bool FilmLoad::apply(State& state, const RigidBase& base) {
+    const double level = parameters_.level ? parameters_.level->at(state) : 0.0;
+    const double displaced = parameters_.level ? parameters_.water_density : 0.0;
+    const FilmColumns film =
+        film_columns(parameters_.film, state, base, level, parameters_.column_width);
+    std::vector<double> pressure;
+    for (std::size_t k = 0; k < film.thickness.size(); ++k)
+        pressure.push_back(
+            (1.0 - film.porosity) * parameters_.gravity *
+            (parameters_.grain_density * film.thickness[k] - displaced * film.wet[k]));
+    columns_.put(state, name(), pressure);
+    return false;
+}
+
+Schedule film_schedule(const SedimentFilm& film) {
+    constexpr double furthest = 25.0; // m
+    const Schedule& strata = film.deposition;
+    return {strata.interval / std::ceil(strata.spacing() / furthest), strata.calendar()};
+}
+
+FootwallLoad film_load(const FilmLoadParameters& parameters) {
+    return {{}, [parameters](const LoadSolution& solution) {
+                return LoadingEvent{
+                    .event = std::make_unique<FilmLoad>(solution.base.interface(), parameters),
+                    .measures = [](const State& state) {
+                        return NamedValues{{film_load_name, weight_of(state, of_film)}};
+                    }};
+            }};
 }
 
 } // namespace listric::coupling

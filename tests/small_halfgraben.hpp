@@ -18,6 +18,17 @@ segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 
 )";
 }
 
+/// A crust of 5 km below it: [elastic_base].
+inline std::string small_elastic_base() {
+    return R"([elastic_base]
+skin_thickness_m = 300.0
+left_m = -40000.0
+right_m = 50000.0
+depth_m = 5000.0
+cell_size_m = 400.0
+)";
+}
+
 inline std::string contents(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

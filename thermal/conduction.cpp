@@ -41,8 +41,9 @@ std::int32_t nearest_to(const Sites& sites, const FacetedCells& cells, std::size
 } // namespace
 
 HeatNetwork heat_network(const Sites& sites, const FacetedCells& cells,
-                         std::span<const double> conductivity) {
+                         std::span<const double> conductivity, std::span<const double> blanket) {
     assert(conductivity.size() == sites.count());
+    assert(blanket.empty() || blanket.size() == sites.count());
     HeatNetwork network{
         {}, std::vector<double>(sites.count(), 0.0), std::vector<double>(sites.count(), 0.0)};
     for (std::size_t i = 0; i < sites.count(); ++i) {
@@ -56,7 +57,8 @@ HeatNetwork heat_network(const Sites& sites, const FacetedCells& cells,
         }
         for (const PowerFacet& facet : facets) {
             if (facet.neighbour == facet_on_lid)
-                network.ground[i] += here * facet.length / facet.distance;
+                network.ground[i] +=
+                    facet.length / (facet.distance / here + (blanket.empty() ? 0.0 : blanket[i]));
             else if (facet.neighbour == facet_on_base)
                 network.floor[i] += here * facet.length / facet.distance;
             if (facet.neighbour <= static_cast<std::int32_t>(i))

@@ -25,8 +25,10 @@ struct HeatNetwork {
 /// Conductance of a facet is its length over the resistance of the way through it from centre to
 /// centre: exact for a linear field, and within 6 K of 444 across a contact of 1 to 10.
 /// @param conductivity  by cell, W/m/K
+/// @param blanket       resistance of what lies on the ground above a cell, m^2 K/W; none: nothing
 HeatNetwork heat_network(const Sites& sites, const dem::FacetedCells& cells,
-                         std::span<const double> conductivity);
+                         std::span<const double> conductivity,
+                         std::span<const double> blanket = {});
 
 /// Temperatures that the section's ends are kept at, degrees Celsius.
 struct EndTemperatures {

@@ -103,6 +103,16 @@ GroundLine Heat::solved_ground(const State& state, const RigidBase& base) const 
                        std::max(0.0, since) + almost * schedule().gap(applied + 1).m);
 }
 
+Heat::Blanket::Blanket(const Heat& heat, const State& state, const RigidBase& base)
+    : film_(heat.setting_.film ? heat.setting_.film->now(state, base) : std::nullopt) {
+    if (film_)
+        conductivity_ = sediment_conductivity(heat.p_.grain_conductivity, film_->porosity);
+}
+
+double Heat::Blanket::at(double x, const GroundLine& ground) const {
+    return film_ ? film_->thickness(x, ground.height(x)) / conductivity_ : 0.0;
+}
+
 bool Heat::start(State& state, const RigidBase& base) {
     const GroundLine ground = ground_line(state, base, setting_.beside);
     const ConstDiscColumns d = disc_columns(std::as_const(state));
@@ -171,7 +181,11 @@ bool Heat::apply(State& state, const RigidBase& base) {
     book_discs(state, all);
     const GroundLine ground = ground_line(state, base, setting_.beside);
     const CutCells cut = cut_cells(all.sites, ends(), ground, knots_);
-    const HeatNetwork network = heat_network(all.sites, cut.faceted, all.conductivity);
+    const Blanket film(*this, state, base);
+    std::vector<double> blanket;
+    for (const double x : all.sites.x)
+        blanket.push_back(film.at(x, ground));
+    const HeatNetwork network = heat_network(all.sites, cut.faceted, all.conductivity, blanket);
     const double seconds = schedule().seconds(applied + 1);
     const std::vector<double> before = all.temperature;
     const HeatFlows flows =
@@ -208,18 +222,6 @@ double Heat::start_temperature(Point p) const {
     return geotherm_.at(setting_.ground.height(p.x) - p.y);
 }
 
-std::vector<double> Heat::anomaly(const State& state, const RigidBase& base,
-                                  std::span<const double> edges) const {
-    std::vector<double> sums(edges.empty() ? 0 : edges.size() - 1, 0.0);
-    const HeatCells all = cells(state);
-    const GroundLine ground = ground_line(state, base, setting_.beside);
-    for (const CellPart& part : cut_cells(all.sites, ends(), ground, edges).parts)
-        sums[part.strip] +=
-            part.area * (all.temperature[part.cell] -
-                         start_temperature({all.sites.x[part.cell], all.sites.y[part.cell]}));
-    return sums;
-}
-
 std::vector<double> Heat::mass_lost(const State& state, const RigidBase& base,
                                     std::span<const double> knots) const {
     const HeatCells all = cells(state);
@@ -248,14 +250,15 @@ SurfaceHeatFlow::SurfaceHeatFlow(const Heat& heat, const State& state, const Rig
     : ground_temperature_(heat.parameters().surface_temperature) {
     constexpr double deepest = 6e3; // m: where points are coarse none is nearer
     const GroundLine ground = heat.solved_ground(state, base);
+    const Heat::Blanket film(heat, state, base);
     const HeatCells all = heat.cells(state);
     for (std::size_t i = 0; i < all.sites.count(); ++i) {
         if (all.is_new[i])
             continue;
-        const double depth = ground.depth({all.sites.x[i], all.sites.y[i]});
+        const double x = all.sites.x[i], depth = ground.depth({x, all.sites.y[i]});
         if (depth > 0.0 && depth <= deepest)
             sites_.push_back(
-                {all.sites.x[i], depth, all.temperature[i], 1.0 / all.conductivity[i]});
+                {x, depth, all.temperature[i], 1.0 / all.conductivity[i], film.at(x, ground)});
     }
     std::ranges::sort(sites_, [](const Site& a, const Site& b) {
         return a.x != b.x ? a.x < b.x : a.depth < b.depth;
@@ -276,7 +279,8 @@ double SurfaceHeatFlow::at(double x) const {
     double resistivities = 0.0, flow = 0.0, square = 0.0;
     for (std::size_t k = 0; k < window.size(); ++k) {
         resistivities += window[k].resistivity;
-        const double resistance = window[k].depth * resistivities / static_cast<double>(k + 1);
+        const double resistance =
+            window[k].blanket + window[k].depth * resistivities / static_cast<double>(k + 1);
         flow += resistance * (window[k].temperature - ground_temperature_);
         square += resistance * resistance;
     }

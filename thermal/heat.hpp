@@ -5,6 +5,7 @@
 #include "thermal/heat_points.hpp"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -71,13 +72,19 @@ public:
     /// The ground of the last solution, below the sediment that has come since.
     GroundLine solved_ground(const dem::State& state, const dem::RigidBase& base) const;
 
+    /// Resistance of the film of sediment on a ground, m^2 K/W. Without film: 0.
+    class Blanket {
+    public:
+        Blanket(const Heat& heat, const dem::State& state, const dem::RigidBase& base);
+        double at(double x, const GroundLine& ground) const;
+
+    private:
+        std::optional<dem::FilmNow> film_;
+        double conductivity_ = 1.0; ///< W/m/K
+    };
+
     /// Temperature of the start at a place: above the ground of then, that of the ground.
     double start_temperature(dem::Point p) const;
-
-    /// Integral of temperature less that of the start at the same place over columns between
-    /// places that ascend, K m^2.
-    std::vector<double> anomaly(const dem::State& state, const dem::RigidBase& base,
-                                std::span<const double> edges) const;
 
     /// Mass that thermal expansion has taken from the columns since the start, kg/m^2; below 0
     /// where they are colder: the integral over depth of expansion times density times what a place
@@ -119,7 +126,7 @@ public:
 
 private:
     struct Site {
-        double x, depth, temperature, resistivity;
+        double x, depth, temperature, resistivity, blanket;
     };
     std::vector<Site> sites_; ///< by ascending x
     double ground_temperature_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/base/sediment_film.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
 #include "thermal/geotherm.hpp"
@@ -35,6 +36,7 @@ struct HeatSetting {
     double grain_density = 2600.0;           ///< of sediment, kg/m^3
     double surface_porosity = 0.5;
     double crust_density = 2700.0, mantle_density = 3300.0; ///< of rock without discs, kg/m^3
+    std::optional<dem::SedimentFilm> film = {};             ///< none: no sediment comes
 };
 
 /// The section that has temperatures: 150 km beyond what moves, which is three times as far as

@@ -107,10 +107,6 @@ void add_parts(const PowerPolygon& polygon, double x, std::size_t cell,
 
 } // namespace
 
-FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground) {
-    return cut_cells(sites, ends, ground, {}).faceted;
-}
-
 CutCells cut_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground,
                    std::span<const double> lines) {
     if (sites.count() == 0)

@@ -22,14 +22,6 @@ struct SectionEnds {
     double left, right, floor;
 };
 
-/// Power cells of the sites, which fill the section below the ground. No gap is left out, and no
-/// fault and no base cuts them: rock and sediment touch each other there.
-///
-/// A cell ends at the line that the ground is where it is nearest, at least half a radius from its
-/// centre, for the ground is smoother than the discs (facet_on_lid); on the section's floor
-/// (facet_on_base) and at its sides (facet_open).
-dem::FacetedCells site_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground);
-
 /// Part of a cell between two vertical lines.
 struct CellPart {
     std::size_t cell, strip; ///< strip k is between lines k and k + 1
@@ -37,11 +29,18 @@ struct CellPart {
     double x;                ///< of its centre of area, m
 };
 
-/// The same cells, also cut by vertical lines whose x ascends: what lies between them.
 struct CutCells {
     dem::FacetedCells faceted;
-    std::vector<CellPart> parts;
+    std::vector<CellPart> parts; ///< between the lines
 };
+
+/// Power cells of the sites, which fill the section below the ground, whole and cut by vertical
+/// lines whose x ascends. No gap is left out, and no fault and no base cuts them: rock and sediment
+/// touch each other there.
+///
+/// A cell ends at the line that the ground is where it is nearest, at least half a radius from its
+/// centre, for the ground is smoother than the discs (facet_on_lid); on the section's floor
+/// (facet_on_base) and at its sides (facet_open).
 CutCells cut_cells(const Sites& sites, const SectionEnds& ends, const GroundLine& ground,
                    std::span<const double> lines);
 

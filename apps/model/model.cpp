@@ -69,7 +69,8 @@ make_footwall_loads(const Scene& scene, const ModelParts& parts,
         if (part.effect->load_footwall)
             loads.push_back(part.effect->load_footwall(scene, parts));
         if (part.effect->load_bending_base)
-            loads.push_back(part.effect->load_bending_base(scene, parts, events));
+            std::ranges::move(part.effect->load_bending_base(scene, parts, events),
+                              std::back_inserter(loads));
     }
     return loads;
 }

@@ -21,6 +21,7 @@ namespace {
 using namespace support;
 using nlohmann::json;
 using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 
 /// A rift that stretches by a third at once and rests for 8 Ma. 400 discs.
@@ -36,13 +37,8 @@ series = "none"
 [sedimentation]
 interval_a = 2000.0
 [compaction]
-[elastic_base]
-skin_thickness_m = 300.0
-left_m = -40000.0
-right_m = 50000.0
-depth_m = 5000.0
-cell_size_m = 400.0
-[lower_crust_thinning]
+)" + small_elastic_base() +
+                          R"([lower_crust_thinning]
 thickness_m = 2000.0
 width_m = 15000.0
 centre_m = 1500.0
@@ -72,6 +68,7 @@ protected:
         EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
         EXPECT_LT(whole["thermal_load_n_per_m"].get<double>(), -1e9);
         EXPECT_NE(whole["post_rift_subsidence_m"].get<double>(), 0.0); // with what the base lags
+        EXPECT_GT(whole["film_load_n_per_m"].get<double>(), 1e6);
     }
     State last_state(const std::string& name) const {
         return read_snapshot(list_snapshots(folder / name).back()).state;
@@ -92,10 +89,11 @@ TEST_F(HeatBaseRun, HasTheSameBitsWithAnIsotherm) {
     EXPECT_GT(line.rows(), 2u);
 }
 
-/// Without expansion temperatures move nothing.
+/// Without expansion temperatures move nothing. (A stage that fills has a film of sediment.)
 TEST_F(HeatBaseRun, LoadsByExpansionAlone) {
     const std::vector<std::string> thin{"elastic_base.elastic_thickness_m=1000",
-                                        "extension.distance_m=60", "stage=[{distance_m=60.0}]"};
+                                        "extension.distance_m=60",
+                                        "stage=[{distance_m=60.0,sedimentation=\"none\"}]"};
     std::vector<std::string> none = thin;
     none.insert(none.end(), {"heat.thermal_expansion_per_k=0", "heat.regional_extension_m=0"});
     const json still = run(load(heat, none), "none");
@@ -128,12 +126,24 @@ TEST_F(HeatBaseRun, RefusesWhatCannotBe) {
                 HasSubstr("heat.regional_extension_m: is 5000 and goes with the wall's way out"));
 }
 
+TEST_F(HeatBaseRun, WarnsOfMantleThatStretchesBeyondTheFootwall) {
+    const auto warnings = [&](const std::string& width) {
+        return load(heat, {"elastic_base.elastic_thickness_m=1000", "heat.mantle_width_m=" + width})
+            .warnings;
+    };
+    EXPECT_THAT(warnings("60e3"), Contains(AllOf(HasSubstr("mantle stretches from x = -6000 to"),
+                                                 HasSubstr("ends at -40000 and 50000"))));
+    EXPECT_THAT(warnings("30e3"), testing::Not(Contains(HasSubstr("mantle stretches"))));
+}
+
 TEST_F(HeatBaseRun, ExplainsWhatSubsides) {
     const CycleSpeed speed{.team = 1e7, .one_thread = 1e7};
     const std::string text =
         explain(load(heat, {"elastic_base.elastic_isotherm_c=90"}), speed, 1, program_effects());
     EXPECT_THAT(text, AllOf(HasSubstr("stretched by 1.34 and 1.34 at the end"),
-                            HasSubstr("layers of discs"), HasSubstr("Te is the depth of 90 degC")));
+                            HasSubstr("layers of discs"), HasSubstr("up to 120 m below the target"),
+                            HasSubstr("weighs on the base and is a blanket"),
+                            HasSubstr("Te is the depth of 90 degC")));
 }
 
 } // namespace

@@ -21,6 +21,7 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     const auto& base = *bending_base(scene);
     P water = *scene.find<P>();
     water.flank_alone = parts.water.has_value(); // whose pressure the base bears
+    water.film = parts.film;
     return coupling::basin_water_load(
         water, parts.gravity, coupling::water_column_width(scene.hanging_wall.mean_radius),
         make_calendar(scene), pores,

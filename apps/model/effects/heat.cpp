@@ -1,5 +1,6 @@
 #include "thermal/heat.hpp"
 
+#include "coupling/basin_water.hpp"
 #include "coupling/thermal_load.hpp"
 #include "thermal/rift_column.hpp"
 
@@ -93,6 +94,7 @@ thermal::HeatSetting setting(const Scene& scene, const ModelParts& parts) {
         s.grain_density = parts.sediment->grain_density;
         s.surface_porosity = parts.sediment->surface_porosity;
     }
+    s.film = parts.film;
     if (const BendingBase* base = bending_base(scene)) {
         s.crust_density = base->crust_density;
         s.mantle_density = base->mantle_density;
@@ -117,6 +119,13 @@ void contribute(const Scene& scene, ModelParts& parts) {
     parts.depth_of_temperature = [geotherm = thermal::Geotherm(*scene.find<P>())](double t) {
         return geotherm.depth_of(t);
     };
+    if (parts.sediment)
+        parts.film = dem::SedimentFilm{.target = parts.sediment->surface,
+                                       .deposition = {parts.sediment->deposition_interval,
+                                                      make_calendar(scene), dem::InSteps::once},
+                                       .surface_porosity = parts.sediment->surface_porosity,
+                                       .beds = parts.sediment->beds,
+                                       .wall_x = scene.hanging_wall.length};
 }
 
 /// Ends of what temperatures change in, m.
@@ -132,8 +141,23 @@ std::pair<double, double> loaded(const Scene& scene, const ModelParts& parts) {
     return {left, right};
 }
 
-coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts,
-                                         std::span<const std::unique_ptr<dem::Event>> events) {
+/// What the film of sediment weighs: water in its pores is counted with that of the basin.
+coupling::FootwallLoad load_of_film(const Scene& scene, const ModelParts& parts) {
+    coupling::FilmLoadParameters film{
+        .film = *parts.film,
+        .grain_density = parts.sediment->grain_density,
+        .gravity = parts.gravity,
+        .column_width = coupling::water_column_width(scene.hanging_wall.mean_radius)};
+    if (parts.water) {
+        film.level = parts.water->level;
+        film.water_density = parts.water->density;
+    }
+    return coupling::film_load(film);
+}
+
+std::vector<coupling::FootwallLoad>
+load_bending_base(const Scene& scene, const ModelParts& parts,
+                  std::span<const std::unique_ptr<dem::Event>> events) {
     const BendingBase& base = *bending_base(scene);
     const auto [left, right] = loaded(scene, parts);
     const std::vector<double> knots = coupling::thermal_knots(left, right, base.left, base.right);
@@ -147,7 +171,11 @@ coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& p
             return weight;
         };
     }
-    return coupling::thermal_load(knots, pressure, schedule(scene));
+    std::vector<coupling::FootwallLoad> loads{
+        coupling::thermal_load(knots, pressure, schedule(scene))};
+    if (parts.film)
+        loads.push_back(load_of_film(scene, parts));
+    return loads;
 }
 
 void check_stretching(const Scene& scene, const Refuse& refuse) {
@@ -174,7 +202,22 @@ void check_stretching(const Scene& scene, const Refuse& refuse) {
                            text(*p.mantle_width), text(shortening)));
 }
 
-std::string warning(const Scene& scene) {
+std::string warning_of_width(const Scene& scene) {
+    const BendingBase* const base = bending_base(scene);
+    const auto shear = setting(scene, make_parts(scene)).shear;
+    if (!base || !shear || !scene.find<P>()->mantle_width)
+        return "";
+    const double right =
+        shear->left + shear->mantle_width + shear->share * greatest_extension(scene);
+    if (shear->left >= base->left && right <= base->right)
+        return "";
+    return fmt::format("heat.mantle_width_m: mantle stretches from x = {} to {}, but the footwall "
+                       "ends at {} and {}: what rises and cools beyond does not move the base; "
+                       "widen the footwall, or narrow the mantle",
+                       text(shear->left), text(right), text(base->left), text(base->right));
+}
+
+std::string warning_of_steps(const Scene& scene) {
     constexpr double longest = 5e6; // a
     const auto pauses = make_calendar(scene).pauses();
     if (std::ranges::none_of(pauses, [](const auto& pause) { return pause.years > longest; }))
@@ -186,6 +229,11 @@ std::string warning(const Scene& scene) {
                        "sediment go evenly from one to the next, so that their maturity is coarse; "
                        "up to {} is usual",
                        found - all.begin(), text(*found->step), text(longest));
+}
+
+std::string warning(const Scene& scene) {
+    const std::string steps = warning_of_steps(scene), width = warning_of_width(scene);
+    return steps + (steps.empty() || width.empty() ? "" : "; ") + width;
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
@@ -268,6 +316,19 @@ std::string explain_load(const Scene& scene) {
         filled / (2.0 * scene.hanging_wall.mean_radius));
 }
 
+/// Sediment that no disc stands for.
+std::string explain_film(const Scene& scene) {
+    const ModelParts parts = make_parts(scene);
+    if (!parts.film)
+        return "";
+    return fmt::format("  between strata sediment fills what a disc has no room in, up to {:.0f} m "
+                       "below the target: it {} a blanket of {:.2f} W/m/K\n",
+                       2.0 * scene.hanging_wall.mean_radius,
+                       bending_base(scene) ? "weighs on the base and is" : "is",
+                       thermal::sediment_conductivity(scene.find<P>()->grain_conductivity,
+                                                      parts.film->surface_porosity));
+}
+
 /// Temperature of the steady column where the detachment is deepest.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
@@ -283,9 +344,11 @@ std::string explain(const Scene& scene, EffectList) {
         "  before extension {:.1f} mW/m2 leave the ground; {:.0f} degC at {:g} km, {:.0f} degC at "
         "the Moho; 300 degC: {}\n"
         "  every {:g} a; about {:.0f} points in rock without discs, {:.0f} MB\n"
+        "{}"
         "  {}\n",
         1e3 * geotherm.surface_heat_flow(), geotherm.at(depth), depth / 1e3, geotherm.at(p.crust),
-        depth_of(300.0), interval, points(scene), memory(scene) / 1e6, explain_load(scene));
+        depth_of(300.0), interval, points(scene), memory(scene) / 1e6, explain_film(scene),
+        explain_load(scene));
 }
 
 } // namespace

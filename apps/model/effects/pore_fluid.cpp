@@ -156,16 +156,17 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
                              dem::Schedule{p.interval, calendar}, !p.hydrostatic && p.pushes));
 }
 
-coupling::FootwallLoad load_bending_base(const Scene& scene, const ModelParts& parts,
-                                         std::span<const std::unique_ptr<dem::Event>>) {
+std::vector<coupling::FootwallLoad>
+load_bending_base(const Scene& scene, const ModelParts& parts,
+                  std::span<const std::unique_ptr<dem::Event>>) {
     const P& p = *scene.find<P>();
-    return coupling::water_load({.level = parts.water->level,
-                                 .density = p.density,
-                                 .grain_density = parts.sediment->grain_density,
-                                 .gravity = parts.gravity,
-                                 .interval = p.interval,
-                                 .wall_x = scene.hanging_wall.length},
-                                make_calendar(scene));
+    return {coupling::water_load({.level = parts.water->level,
+                                  .density = p.density,
+                                  .grain_density = parts.sediment->grain_density,
+                                  .gravity = parts.gravity,
+                                  .interval = p.interval,
+                                  .wall_x = scene.hanging_wall.length},
+                                 make_calendar(scene))};
 }
 
 /// Water weighs on every scene's start, its permeability on none.

@@ -5,6 +5,7 @@
 #include "apps/scene/parameters/parameter.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/measure.hpp"
+#include "dem/base/sediment_film.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/base/water_level.hpp"
 #include "dem/beds.hpp"
@@ -135,6 +136,7 @@ struct ModelParts {
     std::optional<dem::BondStrength> bonds;
     std::vector<LayerFacts> layers; ///< by the column `layer`, from 1
     std::optional<SedimentFacts> sediment;
+    std::optional<dem::SedimentFilm> film; ///< none: what no disc stands for is not there
     std::optional<WaterFacts>
         water; ///< none: pores are empty, or what fills them weighs on no disc
     std::optional<StretchedCrust> stretched_crust; ///< none: what is below the detachment rests
@@ -292,7 +294,7 @@ struct Effect {
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
     /// The same of an effect that does not need one, where there is one.
     /// @param events  of the run; none where only its states are looked at
-    coupling::FootwallLoad (*load_bending_base)(
+    std::vector<coupling::FootwallLoad> (*load_bending_base)(
         const Scene& scene, const ModelParts& parts,
         std::span<const std::unique_ptr<dem::Event>> events) = nullptr;
     /// The base, of the effect that bends it.

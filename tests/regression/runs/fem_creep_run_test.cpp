@@ -41,13 +41,7 @@ figures_at_m = []
 series = "none"
 [gravity]
 [bonds]
-[elastic_base]
-skin_thickness_m = 300.0
-left_m = -40000.0
-right_m = 50000.0
-depth_m = 5000.0
-cell_size_m = 400.0
-)";
+)" + small_elastic_base();
 const std::string viscous = "layers = [{top_depth_m = 0.0, viscosity_pa_s = 1e23},"
                             "{top_depth_m = 3000.0, viscosity_pa_s = 1e21}]\n";
 const std::string strong = "elastic_thickness_m = 5000.0\n";

@@ -48,14 +48,8 @@ figures_at_m = []
 series = "none"
 [gravity]
 [bonds]
-[elastic_base]
-elastic_thickness_m = 1000.0
-skin_thickness_m = 300.0
-left_m = -40000.0
-right_m = 50000.0
-depth_m = 5000.0
-cell_size_m = 400.0
-)";
+)" + small_elastic_base() +
+                          "elastic_thickness_m = 1000.0\n";
 const std::string loads = R"([lower_crust_thinning]
 thickness_m = 20000.0
 width_m = 15000.0

@@ -47,14 +47,8 @@ interval_a = 2500.0
 [compaction]
 [pore_fluid]
 permeability_m2 = 1e-21
-[elastic_base]
-elastic_thickness_m = 1000.0
-skin_thickness_m = 300.0
-left_m = -40000.0
-right_m = 50000.0
-depth_m = 5000.0
-cell_size_m = 400.0
-)";
+)" + small_elastic_base() +
+                          "elastic_thickness_m = 1000.0\n";
 
 class WaterOnABase : public SceneRuns {
 protected:

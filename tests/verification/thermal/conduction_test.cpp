@@ -130,6 +130,23 @@ TEST(Conduction, AContrastOfTen) {
     EXPECT_NEAR(fine_flow, 0.0, 0.3);
 }
 
+// Sediment without discs: it takes no time to warm, however thin it is.
+TEST(Conduction, AFilmOfTenTimesLessConductivity) {
+    constexpr double width = 3e3, depth = 10e3, k = 2.5, floor = 250.0;
+    Section section(jittered_rows(width, depth, 300.0, 0.3), width, depth, k, 2.7e6);
+    section.kept = {0.0, floor};
+    const auto flow = [&](double film) {
+        section.set([](dem::Point p) { return 0.025 * -p.y; });
+        const auto flows = section.step(section.network(film / (0.1 * k)), long_ago);
+        return 1e3 * flows.through_ground / (long_ago * years * width);
+    };
+    EXPECT_NEAR(flow(0.0), 62.5, 1e-6);
+    EXPECT_NEAR(flow(1.0), 62.5 / (1.0 + 10.0 * 1.0 / depth), 1e-6); // 0.1 % of none
+    EXPECT_NEAR(flow(20.0), 62.5 / (1.0 + 10.0 * 20.0 / depth), 1e-6);
+    EXPECT_NEAR(section.error([](dem::Point p) { return 0.025 * (200.0 - p.y) / 1.02; }), 0.0,
+                1e-6);
+}
+
 // Backward Euler of 1/200 of the decay is 0.25 % late, rows of 1/25 of the depth 0.1 %.
 TEST(Conduction, AWaveDecays) {
     constexpr double depth = 125e3, kappa = 0.8e-6, rho_c = 4.1e6;

@@ -51,9 +51,14 @@ struct Section {
     }
 
     dem::FacetedCells cells() const {
-        return site_cells(sites, ends, thermal::GroundLine({{ends.left, 0.0}, {ends.right, 0.0}}));
+        const thermal::GroundLine level({{ends.left, 0.0}, {ends.right, 0.0}});
+        return cut_cells(sites, ends, level, {}).faceted;
     }
-    thermal::HeatNetwork network() const { return heat_network(sites, cells(), conductivity); }
+    /// @param blanket  resistance of what lies on the ground, m^2 K/W
+    thermal::HeatNetwork network(double blanket = 0.0) const {
+        return heat_network(sites, cells(), conductivity,
+                            std::vector<double>(sites.count(), blanket));
+    }
     double stored() const {
         double sum = 0.0;
         for (std::size_t i = 0; i < temperature.size(); ++i)

@@ -3,6 +3,7 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
+#include "coupling/basin_water.hpp"
 #include "coupling/thermal_load.hpp"
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
@@ -119,6 +120,25 @@ V flow_at_depocentre(const Observation& now) {
     const V x = depocentre(warm_discs(now));
     return x ? thermal::SurfaceHeatFlow(*heat_in(now), now.state, now.parts.base).at(*x)
              : std::nan("");
+}
+
+V film_at_depocentre(const Observation& now) {
+    if (!heat_in(now) || !now.parts.film)
+        return std::nullopt;
+    const V x = depocentre(warm_discs(now));
+    const auto film = now.parts.film->now(now.state, now.parts.base);
+    if (!x || !film)
+        return x ? 0.0 : std::nan("");
+    constexpr double half = 1e3; // m
+    constexpr int samples = 20;
+    const thermal::GroundLine ground =
+        ground_line(now.state, now.parts.base, heat_in(now)->setting().beside);
+    double sum = 0.0;
+    for (int k = 0; k < samples; ++k) {
+        const double at = *x + half * ((2.0 * k + 1.0) / samples - 1.0);
+        sum += film->thickness(at, ground.height(at));
+    }
+    return sum / samples;
 }
 
 /// The least or greatest heat flow over the hanging wall.
@@ -262,6 +282,14 @@ std::vector<Measure<Observation>> heat_measures() {
         {coupling::thermal_load_name, "N/m", "weight of cold rock",
          "weight that rock of the section has by its temperatures, less that at the start: below 0 "
          "where it is hotter, and the base that bends is lifted"},
+        {coupling::film_load_name, "N/m", "weight of sediment without discs",
+         "weight on the base of the sediment that fills the room between ground and target which "
+         "no disc fits in; without the water in its pores, and less what it displaces where pore "
+         "water presses on the base"},
+        {"film_thickness_m", "m", "sediment without discs at the depocentre",
+         "thickness of the sediment that fills the room between ground and target which no disc "
+         "fits in, at the depocentre; mean over 1 km to either side",
+         film_at_depocentre},
         {"post_rift_subsidence_m", "m", "subsidence since the wall stopped",
          "by how much a base that bends has sunk below the depocentre since the wall last moved; 0 "
          "while it moves",
