@@ -168,9 +168,12 @@ std::vector<FaultTrace> trace_faults(const ShearField& field, const Chain& detac
         return traces;
     const double scale = field.window.m / strain_window;
     const double least = options.least_strain * scale, certain = options.certain_strain * scale;
-    const std::vector<Polyline> ridges =
-        find_ridges(field, {least, certain, options.least_length * field.diameter,
-                            options.spacing * field.diameter});
+    std::vector<double> shear(field.x.size());
+    for (std::size_t k = 0; k < shear.size(); ++k)
+        shear[k] = field.shear(k);
+    const std::vector<Polyline> ridges = find_ridges(
+        {field.x, field.y, shear, field.diameter, field.discs_across},
+        {least, certain, options.least_length * field.diameter, options.spacing * field.diameter});
     const Cells cells(field.x, field.y, 2.0 * ShearProfile::band * field.diameter);
     const auto fewest = static_cast<std::size_t>(options.least_length);
     for (const Polyline& ridge : ridges)

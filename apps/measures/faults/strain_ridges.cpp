@@ -16,11 +16,11 @@ using namespace dem;
 
 namespace {
 
-/// The shear strain smoothed by a Gaussian of one mean diameter, on a square grid of half a
+/// The strain smoothed by a Gaussian of one mean diameter, on a square grid of half a
 /// diameter.
 class SmoothStrain {
 public:
-    explicit SmoothStrain(const ShearField& field) : step_(0.5 * field.diameter) {
+    explicit SmoothStrain(const StrainedPlaces& field) : step_(0.5 * field.diameter) {
         const auto [left, right] = std::ranges::minmax(field.x);
         const auto [bottom, top] = std::ranges::minmax(field.y);
         left_ = left - 4.0 * step_;
@@ -78,13 +78,13 @@ private:
     }
 
     /// Bilinear shares of the discs, of their strain and of one.
-    void spread(const ShearField& field, std::vector<double>& amount,
+    void spread(const StrainedPlaces& field, std::vector<double>& amount,
                 std::vector<double>& weight) const {
         for (std::size_t k = 0; k < field.x.size(); ++k) {
             const double u = (field.x[k] - left_) / step_, v = (field.y[k] - bottom_) / step_;
             const auto c = static_cast<std::ptrdiff_t>(u), r = static_cast<std::ptrdiff_t>(v);
             const double fu = u - static_cast<double>(c), fv = v - static_cast<double>(r);
-            const double strain = field.shear(k);
+            const double strain = field.strain[k];
             for (std::ptrdiff_t dc : {0, 1})
                 for (std::ptrdiff_t dr : {0, 1}) {
                     const double share = (dc ? fu : 1.0 - fu) * (dr ? fv : 1.0 - fv);
@@ -324,10 +324,10 @@ bool join_two(std::vector<Polyline>& lines, double diameter) {
 
 } // namespace
 
-std::vector<Polyline> find_ridges(const ShearField& field, const RidgeLimits& limits) {
-    if (field.x.empty())
+std::vector<Polyline> find_ridges(const StrainedPlaces& places, const RidgeLimits& limits) {
+    if (places.x.empty())
         return {};
-    const SmoothStrain strain(field);
+    const SmoothStrain strain(places);
     std::vector<Polyline> lines;
     std::vector<Point> tried;
     for (Point seed : find_seeds(strain, limits.certain_strain)) {
@@ -341,7 +341,7 @@ std::vector<Polyline> find_ridges(const ShearField& field, const RidgeLimits& li
         else
             lines.push_back(std::move(line));
     }
-    while (join_two(lines, field.diameter)) {
+    while (join_two(lines, places.diameter)) {
     }
     return lines;
 }

@@ -10,7 +10,7 @@ import numpy as np
 from .errors import BadValue, RunError, UnknownName, reading
 from .snapshot import h5py  # which says what to install where it is missing
 
-FAULT_LABELS = ("none", "active", "resting", "detachment")
+FAULT_LABELS = ("none", "active", "resting", "detachment", "doubtful")
 
 
 class Dataset:

@@ -21,10 +21,9 @@ constexpr ArrayDoc array_docs[] = {
     {"image", "float32", "amplitude with noise; the reflections alone have an rms of 1"},
     {"fault", "uint8",
      "0 no fault, 1 a fault that slipped in the run's last window, 2 one that slipped before, 3 "
-     "the "
-     "detachment"},
+     "the detachment, 4 doubtful: rock is offset, and less than a certain fault's"},
     {"fault_throw", "float32",
-     "vertical offset of rock at samples of labels 1 and 2, m; above 0: normal"},
+     "vertical offset of rock at samples of labels 1, 2 and 4, m; above 0: normal"},
     {"layer", "int16",
      "number of the layer: above 0 strata, the oldest 1; 0 and below pre-rift, by depth at the "
      "start; -32768 footwall. Horizons are where it changes down a trace"},
@@ -99,14 +98,12 @@ std::string card_of(const DatasetPlan& plan, std::span<const SplitCount> splits,
     text += tables_of(plan, splits);
     text += fmt::format(
         "\n## How labels come about\n\n"
-        "The simulation knows the motion of every disc of rock. Faults are ridges of shear strain "
-        "in "
-        "windows of extension; those of earlier windows are carried along with the rock. Their "
-        "throw "
-        "is the vertical offset of the blocks beside them since the rock was there. Where it is "
-        "{:g} m or more, over {:g} m of height or more, the fault is marked, {:g} samples "
-        "wide.\n\n",
-        s.least_throw, s.least_height, s.fault_width);
+        "The simulation knows the motion of every disc of rock. Faults are lines across which "
+        "discs of one stratum have come apart in height within a few diameters, without the tilt "
+        "of the blocks. Where their throw is {:g} m or more, over {:g} m of height or more, the "
+        "fault is marked, {:g} samples wide; if the median is below {:g} m or the height below "
+        "{:g} m, as doubtful. Leave doubtful samples out of a loss.\n\n",
+        s.least_throw, s.least_height, s.fault_width, s.certain_throw, s.certain_height);
     text +=
         "## What is wrong with it\n\n"
         "- Two dimensions, one tectonic style: extension over a detachment, no salt, no strike "
@@ -119,6 +116,8 @@ std::string card_of(const DatasetPlan& plan, std::span<const SplitCount> splits,
         "where rock has a plane. The line is the middle of the zone, known to about one disc.\n"
         "- Faults that slip less than the limit are in the image and not in the mask. Faults "
         "in young sediment end lower in the mask than in the rock.\n"
+        "- Of 91 lines in 21 sections 11 lie where an eye sees no offset; 4 faults that are to be "
+        "seen are not marked and 6 only as doubtful.\n"
         "- Bedding-parallel slip in weak layers is no fault here.\n\n"
         "`sha256` in the index is of a section's arrays, in the order above, as little-endian "
         "bytes. The same plan and version give the same.\n";
@@ -135,7 +134,7 @@ Json description_of(const DatasetPlan& plan) {
               {"rows", "traces"},
               {"columns", s.in_depth ? "samples of depth" : "samples of two-way time"},
               {"split_by", s.split_by},
-              {"fault_labels", {"none", "active", "resting", "detachment"}}};
+              {"fault_labels", {"none", "active", "resting", "detachment", "doubtful"}}};
     for (const char* split : {"train", "validation", "test"})
         json["splits"][split] = values_in(plan, split);
     for (const ArrayDoc& array : array_docs)

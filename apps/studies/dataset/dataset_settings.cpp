@@ -36,6 +36,10 @@ PlanTable<DatasetSettings> dataset_settings() {
          plan_key("least_throw_m", at<&S::least_throw>, "of a fault that is marked",
                   between(0, 1e4), "m"),
          plan_key("least_height_m", at<&S::least_height>, "of what is marked of a fault",
+                  between(0, 1e5), "m"),
+         plan_key("certain_throw_m", at<&S::certain_throw>,
+                  "median of that of a fault that is not doubtful", between(0, 1e4), "m"),
+         plan_key("certain_height_m", at<&S::certain_height>, "of a fault that is not doubtful",
                   between(0, 1e5), "m")},
         {"split_by"}};
 }

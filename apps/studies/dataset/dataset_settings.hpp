@@ -30,9 +30,11 @@ struct DatasetSettings {
     Drawn layer = {200.0, 500.0};   ///< thickness of layers of pre-rift rock, m
     double contrast = 0.06;         ///< standard deviation of their velocities
 
-    double fault_width = 3.0;    ///< of a line in the mask, samples
-    double least_throw = 30.0;   ///< of a fault that is marked, m
-    double least_height = 300.0; ///< from the upper to the lower end of what is marked of it, m
+    double fault_width = 3.0;     ///< of a line in the mask, samples
+    double least_throw = 50.0;    ///< of a fault that is marked, m
+    double least_height = 500.0;  ///< from the upper to the lower end of what is marked of it, m
+    double certain_throw = 100.0; ///< median of a fault that is not doubtful, m
+    double certain_height = 750.0;
 };
 
 /// The keys of [dataset].

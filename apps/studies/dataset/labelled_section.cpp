@@ -5,6 +5,7 @@
 #include "apps/figures/sections/seismic_section.hpp"
 #include "apps/measures/faults/offset/fault_offset.hpp"
 #include "apps/measures/strata/owner_map.hpp"
+#include "apps/support/statistics.hpp"
 #include "dem/base/place.hpp"
 #include "dem/numbers/hypotenuse.hpp"
 #include "dem/numbers/random.hpp"
@@ -106,11 +107,19 @@ void mark_faults(LabelledSection& labels, const SeismicSection& section,
              visible_pieces(fault.points, fault.offset, s.least_throw, s.least_height)) {
             const std::size_t count = last - first + 1;
             const auto offset = std::span(fault.offset).subspan(first, count);
-            mark(labels, section, std::span(fault.points).subspan(first, count), offset,
-                 fault.is_active ? FaultLabel::active : FaultLabel::resting, s.fault_width);
-            ++labels.faults;
+            std::vector<double> sizes;
             for (const double value : offset)
-                labels.greatest_throw = std::max(labels.greatest_throw, std::abs(value));
+                sizes.push_back(std::abs(value));
+            const double height = fault.points[first].y - fault.points[last].y;
+            const bool is_certain = median(sizes) >= s.certain_throw && height >= s.certain_height;
+            mark(labels, section, std::span(fault.points).subspan(first, count), offset,
+                 !is_certain       ? FaultLabel::doubtful
+                 : fault.is_active ? FaultLabel::active
+                                   : FaultLabel::resting,
+                 s.fault_width);
+            ++(is_certain ? labels.faults : labels.doubtful);
+            if (is_certain)
+                labels.greatest_throw = std::max(labels.greatest_throw, std::ranges::max(sizes));
         }
 }
 
@@ -208,11 +217,13 @@ std::vector<float> seismic_noise(std::uint64_t seed, std::uint64_t number, std::
             measures::ricker(static_cast<double>(k) - static_cast<double>(reach), frequency));
         square += wavelet.back() * wavelet.back();
     }
+    // Sums of tens of these are as good as normally distributed.
     std::vector<float> single(traces * samples), noise(traces * samples);
     dem::for_each_shared(traces, [&](std::size_t trace) {
         std::vector<double> white;
         for (std::size_t k = 0; k < samples + 2 * reach; ++k)
-            white.push_back(dem::normal(seed, purposes::seismic_noise, number, trace, k));
+            white.push_back(std::sqrt(12.0) *
+                            (dem::uniform(seed, purposes::seismic_noise, number, trace, k) - 0.5));
         for (std::size_t k = 0; k < samples; ++k) {
             double sum = 0.0;
             for (std::size_t n = 0; n < wavelet.size(); ++n)
@@ -241,7 +252,9 @@ LabelledSection labelled_section(const archive::RunFolder& run, const DatasetSet
     const measures::Setting setting = archive::make_setting(run.scene, run.parts);
     const archive::RunHistory history(run);
     const auto older = history.before(moment.state.clock.travel, setting);
-    const auto faults = measures::offset_faults(setting, run.parts.base, moment.state, older);
+    const auto faults =
+        older.empty() ? std::vector<measures::OffsetFault>()
+                      : measures::offset_faults(setting, moment.state, older.back(), s.least_throw);
 
     const double layer = drawn(s.layer, DrawnFor::layer, seed, number);
     const double noise = drawn(s.noise, DrawnFor::noise, seed, number);

@@ -20,6 +20,7 @@ enum class FaultLabel : std::uint8_t {
     active,     ///< it slipped in the run's last window
     resting,    ///< it slipped before
     detachment, ///< below the hanging wall
+    doubtful,   ///< rock is offset, and less than certain_throw
 };
 
 /// A seismic image with what is known at its samples, trace by trace.
@@ -33,8 +34,8 @@ struct LabelledSection {
     std::vector<float> reflectivity = {}; ///< sum of reflection coefficients in a sample
 
     std::vector<std::pair<std::string, double>> numbers = {}; ///< how it was made, and its axes
-    std::size_t faults = 0;                                   ///< lines that are marked
-    double greatest_throw = 0.0;                              ///< of those, m
+    std::size_t faults = 0, doubtful = 0;                     ///< lines that are marked
+    double greatest_throw = 0.0;                              ///< of faults, m
 };
 
 /// The section of a run's end. What is drawn by chance depends on the run's number and seed.

@@ -405,33 +405,63 @@ TEST(FaultHistory, NothingBeforeTheFirstWindow) {
                     .faults.empty());
 }
 
-// The fault slides by 250 m in its last three windows but one and rests in the last: its trace of
-// the window before is carried on, and its offset is all of the slip. The zone is three diameters
-// wide, so that some of the slip lies beyond where the blocks begin: 4 % for each.
+// The fault slides by 250 m in its last three windows but one and rests in the last: its offset is
+// all of the slip, where it is now. The zone is three diameters wide.
 TEST(OffsetFaults, OfRestingOnesStayWithAllTheirSlip) {
     const Story story(6, 3, 0.0, 6);
     EXPECT_TRUE(story.report().faults.empty());
-    const auto faults = offset_faults(story.setting, story.base, story.now, story.places);
+    const auto faults = offset_faults(story.setting, story.now, story.places.back(), 100.0);
     ASSERT_GE(faults.size(), 1u);
-    EXPECT_FALSE(faults[0].is_active);
-    for (const OffsetFault& other : faults) // a line that goes on beyond the first one's end
-        EXPECT_NEAR(dip_of(other.points), 60.0, 5.0);
-    const std::size_t middle_point = faults[0].points.size() / 2;
-    EXPECT_NEAR(faults[0].offset[middle_point], 3.0 * 250.0 * std::sin(60.0 * degree),
-                0.08 * 650.0);
-    EXPECT_NEAR(dip_of(faults[0].points), 60.0, 2.0);
+    const OffsetFault& fault = *std::ranges::max_element(
+        faults, {}, [](const OffsetFault& f) { return length_of(f.points); });
+    EXPECT_FALSE(fault.is_active);
+    const double slip = 3.0 * 250.0 * std::sin(60.0 * degree);
+    EXPECT_NEAR(fault.offset[fault.points.size() / 2], slip, 0.1 * slip);
+    EXPECT_NEAR(dip_of(fault.points), 60.0, 3.0);
     // It passes where the footwall has gone: 500 m a window from the middle.
-    EXPECT_LT(std::abs(place_on(faults[0].points, {middle.x + 6.0 * 500.0, middle.y}).distance),
+    EXPECT_LT(std::abs(place_on(fault.points, {middle.x + 6.0 * 500.0, middle.y}).distance),
               1.5 * d);
 }
 
-TEST(OffsetFaults, OneThatIsActiveStandsOnceForAllItsWindows) {
+TEST(OffsetFaults, OneThatSlipsInTheLastWindowIsActive) {
     const Story story(6, 1, 2.0);
-    const auto faults = offset_faults(story.setting, story.base, story.now, story.places);
+    const auto faults = offset_faults(story.setting, story.now, story.places.back(), 100.0);
     ASSERT_GE(faults.size(), 1u);
-    EXPECT_TRUE(faults[0].is_active);
-    EXPECT_EQ(std::ranges::count(faults, true, &OffsetFault::is_active), 1);
-    EXPECT_TRUE(offset_faults(story.setting, story.base, story.now, {}).empty());
+    EXPECT_TRUE(faults.front().is_active);
+}
+
+/// Rock that has come up by `rise` of its place.
+std::vector<OffsetFault> faults_of_rise(const std::function<double(Point)>& rise) {
+    Story story(1, 9, 0.0);
+    const DiscColumns c = disc_columns(story.now);
+    for (std::size_t i = 0; i < c.x.size(); ++i)
+        c.start_y[i] = c.y[i] - rise({c.x[i], c.y[i]});
+    return offset_faults(story.setting, story.now, story.places.back(), 100.0);
+}
+
+// Both flanks of a graben of four diameters, and neither a tilted block nor a wide bend.
+TEST(OffsetFaults, FlanksOfANarrowGrabenAreTwo) {
+    const double left = middle.x - 2.0 * d, right = middle.x + 2.0 * d;
+    const auto faults = faults_of_rise(
+        [&](Point p) { return p.x > left && p.x < right ? -200.0 : 0.1 * (p.x - middle.x); });
+    int sides[2] = {};
+    for (const OffsetFault& fault : faults) {
+        const std::size_t at = fault.points.size() / 2;
+        const bool is_right = fault.points[at].x > middle.x;
+        ++sides[is_right];
+        EXPECT_NEAR(fault.points[at].x, is_right ? right : left, d);
+        EXPECT_NEAR(std::abs(fault.offset[at]), 200.0, 60.0);
+    }
+    EXPECT_EQ(sides[0], 1);
+    EXPECT_EQ(sides[1], 1);
+}
+
+TEST(OffsetFaults, TiltsAndWideBendsAreNone) {
+    EXPECT_TRUE(faults_of_rise([](Point p) { return 0.3 * (p.x - middle.x); }).empty());
+    for (const OffsetFault& fault : faults_of_rise(
+             [](Point p) { return 200.0 * std::clamp((p.x - middle.x) / (8.0 * d), -1.0, 1.0); }))
+        for (const double offset : fault.offset)
+            EXPECT_LT(std::abs(offset), 100.0);
 }
 
 TEST(WeakOffFaults, ByAreaAndDistance) {
