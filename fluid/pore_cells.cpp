@@ -65,6 +65,7 @@ PoreCells pore_cells(const State& state, const RigidBase& base, const WetSedimen
         cells.cell_of[i] = static_cast<std::int32_t>(cells.rows.size());
         cells.rows.push_back(static_cast<std::int32_t>(i));
         cells.rock.push_back(rock);
+        cells.centres.push_back({d.x[i], d.y[i]});
     }
     cells.surface_lengths.assign(cells.count(), 0.0);
     if (cells.rows.empty()) {
@@ -92,6 +93,25 @@ PoreCells pore_cells(const State& state, const RigidBase& base, const WetSedimen
     return cells;
 }
 
+const PowerFacet* facet_between(const PoreCells& cells, std::size_t first, std::size_t second) {
+    for (const PowerFacet& facet : cells.faceted.of(first))
+        if (facet.neighbour == cells.rows[second])
+            return &facet;
+    return nullptr;
+}
+
+Point pressure_arm(const PoreCells& cells, std::size_t k, const PowerFacet& facet,
+                   std::size_t other) {
+    if (cells.permeability.empty() || (!cells.rock[k] && !cells.rock[other]))
+        return facet.arm;
+    const Point normal = (1.0 / facet.distance) * (cells.centres[other] - cells.centres[k]);
+    const double here = dot(normal, facet.arm);
+    // Resistances of the two parts of the way.
+    const double own = std::max(here, 0.0) * cells.permeability[other];
+    const double others = std::max(facet.distance - here, 0.0) * cells.permeability[k];
+    return facet.arm + (facet.distance * own / (own + others) - here) * normal;
+}
+
 std::vector<Point> pressure_gradients(const PoreCells& cells,
                                       std::span<const double> excess_pressure) {
     std::vector<Point> gradients(cells.count());
@@ -99,17 +119,20 @@ std::vector<Point> pressure_gradients(const PoreCells& cells,
         Point sum;
         for (const PowerFacet& facet : cells.faceted.of(k)) {
             double beyond = excess_pressure[k], distance = facet.distance;
+            Point arm = facet.arm;
             if (facet.neighbour == facet_on_lid) {
                 beyond = 0.0; // at the ground, which is not where the cell ends
                 distance = cells.ground_distances[k];
             } else if (facet.neighbour >= 0) {
                 const std::int32_t other = cells.cell_of[static_cast<std::size_t>(facet.neighbour)];
-                if (other >= 0)
+                if (other >= 0) {
                     beyond = excess_pressure[static_cast<std::size_t>(other)];
+                    arm = pressure_arm(cells, k, facet, static_cast<std::size_t>(other));
+                }
             }
             const double weight = (beyond - excess_pressure[k]) * facet.length / distance;
-            sum.x += weight * facet.arm.x;
-            sum.y += weight * facet.arm.y;
+            sum.x += weight * arm.x;
+            sum.y += weight * arm.y;
         }
         const double area = cells.faceted.cells[k].area;
         if (area > 0.0)

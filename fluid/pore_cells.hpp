@@ -21,6 +21,9 @@ struct PoreCells {
     std::vector<std::int32_t> rows;      ///< of the discs, by cell
     std::vector<std::int32_t> cell_of;   ///< by row; -1: dry
     std::vector<const PorousRock*> rock; ///< by cell; null: sediment
+    std::vector<dem::Point> centres;     ///< by cell, m
+    /// By cell: permeability, m^2. Empty: pressure changes evenly from one to the next.
+    std::vector<double> permeability;
     dem::FacetedCells faceted;           ///< by cell
     std::vector<double> surface_lengths; ///< by cell: of its edge at the ground, m; 0: covered
     std::vector<double> depths;          ///< by cell: of the centre below the ground, m
@@ -35,6 +38,15 @@ struct PoreCells {
 /// Cells of sediment and porous rock. Those at the ground end a radius above the disc's centre.
 PoreCells pore_cells(const dem::State& state, const dem::RigidBase& base,
                      const WetSediment& sediment = {});
+
+/// The facet of one cell that another has as its own; null where the ground ends that one short of
+/// it.
+const dem::PowerFacet* facet_between(const PoreCells& cells, std::size_t first, std::size_t second);
+
+/// From a cell's centre to the middle of its facet with another, or where rock is involved to where
+/// pressure has changed by as much as in the cell itself: it changes in what conducts less, m.
+dem::Point pressure_arm(const PoreCells& cells, std::size_t cell, const dem::PowerFacet& facet,
+                        std::size_t other);
 
 /// Gradient of excess pressure in every cell, Pa/m: by Green and Gauss, with 0 at the ground and no
 /// flow into rock, base and walls.

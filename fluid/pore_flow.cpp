@@ -185,9 +185,9 @@ std::size_t Step::worst_cell() const {
 }
 
 /// Books what has flown in some seconds at these pressures.
-void book(const FlowNetwork& network, const Storage& storage, const std::vector<At>& at,
-          double seconds, std::span<const double> u, std::span<double> water,
-          FlowOutcome& outcome) {
+void book(const FlowNetwork& network, const Storage& storage, const PressureBounds& bounds,
+          const std::vector<At>& at, double seconds, std::span<const double> u,
+          std::span<double> water, FlowOutcome& outcome) {
     for (const auto& [first, second, conductance] : network.links) {
         const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
         const double flows = seconds * conductance * (u[i] - u[j]);
@@ -200,9 +200,10 @@ void book(const FlowNetwork& network, const Storage& storage, const std::vector<
         outcome.surface += drained;
         if (at[i] != At::highest)
             continue;
-        const double vented = std::max(0.0, water[i] - storage(i, u[i]).water);
-        water[i] -= vented;
-        outcome.vented += vented;
+        const double left = std::max(0.0, water[i] - storage(i, u[i]).water);
+        water[i] -= left;
+        (!bounds.at_ground.empty() && bounds.at_ground[i] ? outcome.surface : outcome.vented) +=
+            left;
     }
 }
 
@@ -231,7 +232,7 @@ FlowOutcome flow(const FlowNetwork& network, const Storage& storage, const Press
             outcome.stuck = step.worst_cell();
             break;
         }
-        book(network, storage, step.at(), seconds / pieces, u, water, outcome);
+        book(network, storage, bounds, step.at(), seconds / pieces, u, water, outcome);
     }
     outcome.steps = step.steps;
     std::ranges::copy(u, excess_pressure.begin());

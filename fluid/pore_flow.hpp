@@ -40,6 +40,9 @@ using Storage = std::function<Stored(std::size_t cell, double excess_pressure)>;
 /// Allowed excess pressures by cell, Pa.
 struct PressureBounds {
     std::vector<double> lowest, highest;
+    /// What leaves at the highest there does so through the ground, not through fractures. Empty:
+    /// nowhere.
+    std::vector<bool> at_ground = {};
 };
 
 /// Water that has left, m^2, and what the solution took.

@@ -182,6 +182,9 @@ PoreFluid::Mud PoreFluid::mud_of(const State& state, const WetGround& ground,
         if (has_faults)
             mud.faults.push_back(flow.faults);
         mud.bounds.highest.push_back(fluid_.fracture_ratio * grain_weight() * mud.grains[k]);
+        // Nearer than what it drains through: there is next to nothing that could fracture.
+        mud.bounds.at_ground.push_back(cells.depths[k] + cells.pending[k] <
+                                       cells.ground_distances[k]);
         mud.bounds.lowest.push_back(-fluid_weight_ * std::max(0.0, level - d.y[i]));
         if (cells.rock[k] && mud.start_grains[k] < 0.0)
             mud.start_grains[k] = mud.grains[k];
@@ -220,6 +223,8 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     Mud mud = mud_of(state, ground, cells);
     if (!sediment_.beds.empty() || sediment_.has_rock())
         cover(state, ground.next_stratum(), cells);
+    if (sediment_.has_rock())
+        cells.permeability = mud.conductivity;
     const Storage storage = [&](std::size_t k, double u) {
         const VoidRatio e = pores(mud, k, u);
         const double swelling = 1.0 + fluid_.compressibility * u;
@@ -307,9 +312,8 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
         return;
     const std::vector<double> u = gathered(state, dem::columns::excess_pressure, cells);
     std::vector<Point> force = pore_forces(state, cells, volume, u);
-    const double share = surface_.loads_base ? lifted_share(cells, force, u) : 1.0;
     if (surface_.loads_base)
-        lift_what_comes(cells, u, share, force);
+        lift_what_comes(cells, u, force);
     const auto push_x = state.discs.get(dem::columns::push_x);
     const auto push_y = state.discs.get(dem::columns::push_y);
     double capped = 0.0;
@@ -330,17 +334,13 @@ void PoreFluid::push(State& state, const RigidBase& base, const PoreCells& cells
     if (!surface_.loads_base)
         return;
     // What the lift of single discs was cut by is missing below, too.
-    std::vector<Point> of_discs = force;
-    lift_what_comes(cells, u, -share, of_discs);
-    memory.get<double>(Sums::closure)[0] =
-        press_base(state, base, cells, u, lifted_share(cells, of_discs, u), force);
+    memory.get<double>(Sums::closure)[0] = press_base(state, base, cells, u, force);
     const auto lift = state.discs.get(dem::columns::lift);
     for (std::size_t i = 0; i < force.size(); ++i) {
         lift[i] = force[i].y;
-        if (cells.cell_of[i] >= 0)
-            continue;
         push_x[i] = force[i].x;
-        push_y[i] = force[i].y;
+        if (cells.cell_of[i] < 0)
+            push_y[i] = force[i].y;
     }
 }
 

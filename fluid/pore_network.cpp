@@ -25,10 +25,8 @@ bool is_near(double distance, double reach) {
 /// ground ends one.
 double common_length(const PoreCells& cells, std::size_t first, const PowerFacet& facet,
                      std::size_t second) {
-    for (const PowerFacet& back : cells.faceted.of(second))
-        if (back.neighbour == cells.rows[first])
-            return std::min(facet.length, back.length);
-    return 0.0;
+    const PowerFacet* const back = facet_between(cells, second, first);
+    return back ? std::min(facet.length, back->length) : 0.0;
 }
 
 /// Whether the beds of two cells are told by one number: age in sediment, height at the start in

@@ -1,6 +1,7 @@
 #include "apps/scene/parameters/scene_layer.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/toml/toml.hpp"
@@ -347,10 +348,9 @@ void check_water(const Scene& scene, const L& layer, std::size_t item, const Ref
                                layer.name));
     if (layer.permeability && !make_parts(scene).water)
         refuse(path_of(item, "permeability_m2"),
-               fmt::format(
-                   "is {}, and the scene has no water in its pores; add a table of pore fluid, or "
-                   "leave it out",
-                   text(*layer.permeability)));
+               fmt::format("is {}, and the scene has no water in its pores; add [{}], or leave it "
+                           "out",
+                           text(*layer.permeability), pore_filler(program_effects()).name));
 }
 
 void check_rock(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {

@@ -356,6 +356,7 @@ const Effect& effect() {
                 scene.find<P>()->flow.permeability = rock.pores->permeability;
         }),
         .needs = {"gravity", "sedimentation", "compaction"},
+        .fills_pores = true,
         .in_genesis = true,
         .as_in_genesis = as_in_genesis,
         .check = check,

@@ -1,6 +1,7 @@
 #include "apps/scene/parameters/stages.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/model/effects/stage/measures.hpp"
 #include "apps/model/effects/stage/pauses.hpp"
 #include "apps/model/model.hpp"
@@ -198,11 +199,9 @@ void check(const Scene& scene, const Refuse& refuse) {
     const bool has_water = make_parts(scene).water.has_value();
     for (std::size_t k = 0; k < stages.size(); ++k)
         if (stages[k].water_level && !has_water)
-            refuse(
-                fmt::format("stage[{}].water_level_m", k),
-                fmt::format("is {}, but no water acts on the discs; add a table of pore fluid, or "
-                            "leave it out",
-                            text(*stages[k].water_level)));
+            refuse(fmt::format("stage[{}].water_level_m", k),
+                   fmt::format("is {}, but no water acts on the discs; add [{}], or leave it out",
+                               text(*stages[k].water_level), pore_filler(program_effects()).name));
 }
 
 std::string explain(const Scene& scene, EffectList) {

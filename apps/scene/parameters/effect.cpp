@@ -18,11 +18,22 @@ const BendingBase* bending_base(const Scene& scene) {
     return nullptr;
 }
 
+namespace {
+
+template <class Is> const Effect& the_one(EffectList effects, Is&& is) {
+    const auto found = std::ranges::find_if(effects, is);
+    assert(found != effects.end());
+    return **found;
+}
+
+} // namespace
+
 const Effect& base_bender(EffectList effects) {
-    const auto bends = [](const Effect* effect) { return effect->bending_base != nullptr; };
-    const auto bender = std::ranges::find_if(effects, bends);
-    assert(bender != effects.end());
-    return **bender;
+    return the_one(effects, [](const Effect* effect) { return effect->bending_base != nullptr; });
+}
+
+const Effect& pore_filler(EffectList effects) {
+    return the_one(effects, [](const Effect* effect) { return effect->fills_pores; });
 }
 
 std::vector<std::string_view> needed_tables(const Effect& effect, EffectList effects) {

@@ -271,6 +271,7 @@ struct Effect {
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
     bool brings_base = false; ///< a scene with it needs no detachment and no base that stretches
+    bool fills_pores = false; ///< with water, those of all discs: see ModelParts
     /// Words for why its sediment gets lower where nothing shears: pictures of strain are without
     /// that strain, and say so.
     std::string_view settling = {};
@@ -337,6 +338,9 @@ const BendingBase* bending_base(const Scene& scene);
 
 /// The effect that bends the base.
 const Effect& base_bender(EffectList effects);
+
+/// The effect that fills the pores of all discs with water.
+const Effect& pore_filler(EffectList effects);
 
 /// Tables that must be there, too, where an effect is on.
 std::vector<std::string_view> needed_tables(const Effect& effect, EffectList effects);

@@ -224,7 +224,7 @@ TEST_F(PoreFluidRun, RefusesRockThatCannotDrain) {
     };
     EXPECT_THAT(refusal({layer("permeability_m2=1e-15")}),
                 AllOf(HasSubstr("layer[0].permeability_m2"), HasSubstr("is 1e-15"),
-                      HasSubstr("add a table of pore fluid")));
+                      HasSubstr("add [pore_fluid]")));
     for (const char* key : {"porosity=0.2", "permeability_ratio=2", "compressibility_per_pa=1e-10"})
         EXPECT_THAT(refusal({"pore_fluid={}", layer(key)}),
                     AllOf(HasSubstr("layer[0]."), HasSubstr("flows through a, and none does"),

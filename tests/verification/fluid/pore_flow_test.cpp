@@ -327,6 +327,17 @@ TEST(PoreFlow, ExtremesNeverGrow) {
     EXPECT_LT(square(), 0.5 * before); // something has flown
 }
 
+TEST(PoreFlow, WhatIsBeyondTheBoundAtTheGroundIsNotVented) {
+    const FlowNetwork network{{}, {0.0, 0.0}};
+    const Storage storage = [](std::size_t, double u) { return Stored{u, 1.0}; };
+    PressureBounds bounds{{-1.0, -1.0}, {1.0, 1.0}};
+    bounds.at_ground = {false, true};
+    std::vector<double> water{3.0, 6.0}, u{0.0, 0.0};
+    const FlowOutcome outcome = flow(network, storage, bounds, 1.0, water, u);
+    EXPECT_DOUBLE_EQ(outcome.vented, 2.0);
+    EXPECT_DOUBLE_EQ(outcome.surface, 5.0);
+}
+
 TEST(PoreFlow, ForcesOfLinearPressure) {
     const Mud mud(12);
     const ConstDiscColumns d = disc_columns(mud.state);

@@ -242,6 +242,26 @@ TEST(PoreRock, IsLiftedByItsVolumeTimesTheGradient) {
     EXPECT_GT(inside, 500);
 }
 
+TEST(PoreRock, PressureChangesInWhatConductsLess) {
+    // Two rows of rock, two of mud and one above; a jump of pressure from rock to mud.
+    const Lattice lattice{5, 5, 2, 5, 50.0, {.porosity = 0.1}, 1e-19, 0.0};
+    WetSediment sediment;
+    sediment.rocks = {lattice.kind};
+    const State state = lattice.state();
+    PoreCells cells = pore_cells(state, lattice.base(), sediment);
+    std::vector<double> u(cells.count(), 1e5);
+    cells.permeability.assign(cells.count(), 3e-19);
+    for (std::size_t k = 0; k < 10; ++k) {
+        u[k] = 0.0;
+        cells.permeability[k] = 9e-19;
+    }
+    // As much of it in either as flow has it: 1/4 and 3/4, over cells of 100 m.
+    const std::vector<Point> gradients = pressure_gradients(cells, u);
+    EXPECT_NEAR(gradients[7].y, 250.0, 1e-9);
+    EXPECT_NEAR(gradients[12].y, 750.0, 1e-9);
+    EXPECT_NEAR(gradients[2].y, 0.0, 1e-9);
+}
+
 TEST(PoreRock, LoadOnItRaisesItsPressureAndNoneIsLeftWhereItDrains) {
     const PorousRock rock{.porosity = 0.1, .compressibility = 1e-10};
     // Pores under a load whose pressure has risen by as much are as they were.
