@@ -13,7 +13,8 @@ import numpy as np  # noqa: E402
 
 import listric  # noqa: E402
 
-COLOURS = {1: (0.84, 0.15, 0.16), 2: (0.98, 0.65, 0.10), 3: (0.12, 0.47, 0.71)}  # active, resting, detachment
+COLOURS = {1: (0.84, 0.15, 0.16), 2: (0.98, 0.65, 0.10), 3: (0.12, 0.47, 0.71),   # active, resting, detachment
+           4: (0.17, 0.63, 0.17)}                                                # doubtful
 
 
 def overlay(fault):

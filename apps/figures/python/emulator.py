@@ -231,7 +231,7 @@ def main(table: str, order: str, folder: str, suggest: str = "0") -> None:
     said = []
     if len(np.unique(seed)) == 1:
         said.append("one seed: its packing is shared by all points, and bands hold runs of other seeds less often than "
-                    "they say; give three seeds or more")
+                    "they say; give more seeds")
     for measure, (emulator, _, total) in found.items():
         largest = sorted(zip(total, names), reverse=True)[:3]
         shares = "".join(f"; {name} {100.0 * share:.0f} %" for share, name in largest if emulator.verdict == "yes")
