@@ -274,7 +274,9 @@ private:
         std::vector<int> seed;
         for (const SweepRow& row : rows) {
             run.push_back(row.run);
-            seed.push_back(row.seed);
+            // Seeds of its own that a point has are as good as the other points'.
+            seed.push_back(plan_.own_seeds ? (row.seed - plan_.first_seed) % plan_.seeds
+                                           : row.seed);
         }
         std::vector<SweepEffect> effects;
         for (std::size_t m = 0; m < plan_.measures.size(); ++m) {

@@ -50,6 +50,9 @@ PlanTable<SweepPlanText> plan_table() {
          plan_key("seeds", at<&T::plan, &P::seeds>, "number of runs per point", between(1, 1000)),
          plan_key("first_seed", at<&T::plan, &P::first_seed>, "first of the seeds",
                   between(0, 1e9)),
+         plan_key("own_seeds", at<&T::plan, &P::own_seeds>,
+                  "whether each point has seeds of its own, as an emulator wants: no packing is "
+                  "shared"),
          plan_key("design", one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
                   "how values are combined"),
          plan_key("samples", at<&T::plan, &P::samples>, "number of points of a Latin hypercube",

@@ -45,7 +45,8 @@ struct SweepPlan {
     std::string name; ///< of its file
     std::string scene, accuracy;
     std::vector<std::string> set, without; ///< for every run
-    int first_seed = 1, seeds = 1;
+    int first_seed = 1, seeds = 1;         ///< of every point
+    bool own_seeds = false; ///< each point goes on with the seeds behind the last one's
     SweepDesign design = SweepDesign::grid;
     int samples = 0; ///< of a Latin hypercube
     std::vector<SweepParameter> parameters;

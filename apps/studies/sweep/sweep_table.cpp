@@ -59,7 +59,8 @@ std::vector<SweepRow> sweep_rows(const SweepPlan& plan, std::span<const SweepPoi
     std::vector<SweepRow> rows;
     for (std::size_t run = 1; run <= points.size(); ++run)
         for (int k = 0; k < plan.seeds; ++k) {
-            rows.push_back({run, plan.first_seed + k});
+            const int before = plan.own_seeds ? static_cast<int>(run - 1) * plan.seeds : 0;
+            rows.push_back({run, plan.first_seed + before + k});
             rows.back().folder =
                 folder / "runs" / fmt::format("{:04}-seed={}", run, rows.back().seed);
         }

@@ -219,6 +219,20 @@ TEST_F(SweepPlanFile, AMeasureThatNoRunCanHaveIsRefused) {
     EXPECT_NO_THROW(load(text));
 }
 
+TEST_F(SweepPlanFile, APointMayHaveSeedsOfItsOwn) {
+    const auto seeds = [this](const std::string& text) {
+        const SweepPlan plan = load(text);
+        const auto points = sweep_points(plan);
+        std::vector<std::int64_t> all;
+        for (const SweepRow& row : sweep_rows(plan, points, ""))
+            all.push_back(row.seed);
+        return all;
+    };
+    EXPECT_THAT(seeds(plan_text), testing::ElementsAre(6, 7, 6, 7, 6, 7, 6, 7));
+    EXPECT_THAT(seeds("own_seeds = true\n" + plan_text),
+                testing::ElementsAre(6, 7, 8, 9, 10, 11, 12, 13));
+}
+
 TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
     const SweepPlan plan = load(plan_text);
     const auto points = sweep_points(plan);
