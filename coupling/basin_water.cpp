@@ -1,7 +1,6 @@
 #include "coupling/basin_water.hpp"
 
 #include "coupling/interface_loads.hpp"
-#include "dem/base/ground_level.hpp"
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
 
@@ -17,15 +16,10 @@ using namespace dem;
 namespace {
 
 // Of the loads on the interface.
-constexpr const char *in_basin = "basin_water", *in_pores = "pore_water", *of_film = "film";
+constexpr const char *in_basin = "basin_water", *in_pores = "pore_water";
 
 std::size_t columns_of(const ConstDiscColumns& d, double width) {
     return static_cast<std::size_t>(std::max(0.0, std::ranges::max(d.x) / width));
-}
-
-/// Sum of forces on the interface, which are vertical, N per m of strike.
-double downward(std::span<const double> forces) {
-    return -std::accumulate(forces.begin(), forces.end(), 0.0);
 }
 
 } // namespace
@@ -70,48 +64,11 @@ std::vector<double> pore_water(const State& state, double level, const PoreSpace
     return water;
 }
 
-FilmColumns film_columns(const SedimentFilm& film, const State& state, const RigidBase& base,
-                         double level, double column_width) {
-    constexpr int samples = 4; // the smooth ground bends twice in a column
-    FilmColumns columns;
-    const auto now = film.now(state, base);
-    if (!now)
-        return columns;
-    columns.porosity = now->porosity;
-    const GroundLevel discs(state);
-    const ConstBaseNodeColumns nodes = base_node_columns(state);
-    for (double left = 0.0; left < now->right; left += column_width) {
-        double thickness = 0.0, wet = 0.0;
-        for (int k = 0; k < samples; ++k) {
-            const double x = left + (k + 0.5) / samples * column_width;
-            const double ground = std::max(discs.height(x), height_at(nodes, x));
-            const double here = now->thickness(x, ground);
-            thickness += here / samples;
-            wet += std::clamp(level - ground, 0.0, here) / samples;
-        }
-        columns.thickness.push_back(thickness);
-        columns.wet.push_back(wet);
-    }
-    return columns;
-}
-
-namespace {
-
-/// Weight of an effect's load on the interface; 0 without.
-double weight_of(const State& state, const char* effect) {
-    const auto loads = state.base_memory.find("interface_loads");
-    return loads != state.base_memory.end() && loads->second.has(effect)
-               ? downward(loads->second.get<double>(effect))
-               : 0.0;
-}
-
-} // namespace
-
 double water_weight(const State& state) {
-    return weight_of(state, in_basin) + pore_water_weight(state);
+    return weight_on_interface(state, in_basin) + pore_water_weight(state);
 }
 
-double pore_water_weight(const State& state) { return weight_of(state, in_pores); }
+double pore_water_weight(const State& state) { return weight_on_interface(state, in_pores); }
 
 std::vector<double> flank_depths(const SurfaceResponse& response, std::span<const double> dry,
                                  double level, double weight) {
@@ -134,21 +91,6 @@ std::vector<double> flank_depths(const SurfaceResponse& response, std::span<cons
         }
     }
     return depth;
-}
-
-InterfaceColumns::InterfaceColumns(const Interface& interface, double width)
-    : width_(width), nodes_(interface.x.size()) {
-    for (double x = 0.0; x + width <= interface.x.back(); x += width)
-        per_pascal_.push_back(pressure_forces(interface, x, x + width));
-}
-
-void InterfaceColumns::put(State& state, std::string_view effect,
-                           std::span<const double> pressure) const {
-    const std::span<double> load = interface_load(state, effect, unknowns());
-    std::ranges::fill(load, 0.0);
-    for (std::size_t k = 0; k < std::min(pressure.size(), per_pascal_.size()); ++k)
-        for (std::size_t n = 0; n < nodes_; ++n)
-            load[2 * n + 1] -= pressure[k] * per_pascal_[k][n];
 }
 
 BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
@@ -279,42 +221,6 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
         return effect;
     };
     return {surface_loads(knots), make_event};
-}
-
-FilmLoad::FilmLoad(const Interface& interface, const FilmLoadParameters& parameters)
-    : Event(of_film, film_schedule(parameters.film), dem::Stage::load), parameters_(parameters),
-      columns_(interface, parameters.column_width) {}
-
-void FilmLoad::begin(State& state) { interface_load(state, name(), columns_.unknowns()); }
-
-bool FilmLoad::apply(State& state, const RigidBase& base) {
-    const double level = parameters_.level ? parameters_.level->at(state) : 0.0;
-    const double displaced = parameters_.level ? parameters_.water_density : 0.0;
-    const FilmColumns film =
-        film_columns(parameters_.film, state, base, level, parameters_.column_width);
-    std::vector<double> pressure;
-    for (std::size_t k = 0; k < film.thickness.size(); ++k)
-        pressure.push_back(
-            (1.0 - film.porosity) * parameters_.gravity *
-            (parameters_.grain_density * film.thickness[k] - displaced * film.wet[k]));
-    columns_.put(state, name(), pressure);
-    return false;
-}
-
-Schedule film_schedule(const SedimentFilm& film) {
-    constexpr double furthest = 25.0; // m
-    const Schedule& strata = film.deposition;
-    return {strata.interval / std::ceil(strata.spacing() / furthest), strata.calendar()};
-}
-
-FootwallLoad film_load(const FilmLoadParameters& parameters) {
-    return {{}, [parameters](const LoadSolution& solution) {
-                return LoadingEvent{
-                    .event = std::make_unique<FilmLoad>(solution.base.interface(), parameters),
-                    .measures = [](const State& state) {
-                        return NamedValues{{film_load_name, weight_of(state, of_film)}};
-                    }};
-            }};
 }
 
 } // namespace listric::coupling

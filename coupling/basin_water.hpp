@@ -3,8 +3,8 @@
 #include "coupling/footwall_erosion.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/interface.hpp"
+#include "coupling/thermal_load.hpp"
 #include "dem/base/sediment_film.hpp"
-#include "dem/base/water_level.hpp"
 #include "dem/event.hpp"
 
 #include <functional>
@@ -17,8 +17,7 @@ namespace listric::coupling {
 /// Names of what the load measures; its description declares them.
 inline constexpr const char *basin_water_name = "basin_water_n_per_m",
                             *pore_water_name = "pore_water_n_per_m",
-                            *flank_water_name = "flank_water_n_per_m",
-                            *film_load_name = "film_load_n_per_m";
+                            *flank_water_name = "flank_water_n_per_m";
 
 /// Water fills what lies below its level above hanging wall and detachment, the pores of the
 /// sediment there and, left of the breakaway, what of the footwall's surface has sunk below it. Its
@@ -36,9 +35,6 @@ struct BasinWaterParameters {
     std::optional<dem::SedimentFilm> film = {};
 };
 
-/// Two mean disc diameters, m: the highest disc of a column is then the surface.
-inline double water_column_width(double mean_radius) { return 4.0 * mean_radius; }
-
 /// Depth of the water, m, in columns of that width from the breakaway on. The floor of a column is
 /// its highest disc, or the detachment where no disc lies.
 std::vector<double> water_depths(const dem::State& state, double level, double column_width);
@@ -54,15 +50,6 @@ struct PoreSpace {
 /// is (1 - Phi) rho and that of water times Phi.
 std::vector<double> pore_water(const dem::State& state, double level, const PoreSpace& pores,
                                double column_width);
-
-/// Thickness of the film of sediment, m, in columns of that width from the breakaway on: all of it,
-/// and what is below a level.
-struct FilmColumns {
-    std::vector<double> thickness, wet;
-    double porosity = 0.0;
-};
-FilmColumns film_columns(const dem::SedimentFilm& film, const dem::State& state,
-                         const dem::RigidBase& base, double level, double column_width);
 
 /// Weight of the water on the detachment, N per m of strike: all of it, and that in the pores.
 double water_weight(const dem::State& state);
@@ -82,23 +69,6 @@ struct Flank {
 /// @param weight  of water, N/m^3
 std::vector<double> flank_depths(const SurfaceResponse& response, std::span<const double> dry,
                                  double level, double weight);
-
-/// The interface below columns of one width from the breakaway on.
-class InterfaceColumns {
-public:
-    InterfaceColumns(const Interface& interface, double width);
-
-    double width() const { return width_; }
-    std::size_t unknowns() const { return 2 * nodes_; }
-
-    /// Puts pressures on the columns as an effect's load, downward, Pa.
-    void put(dem::State& state, std::string_view effect, std::span<const double> pressure) const;
-
-private:
-    double width_;
-    std::size_t nodes_;
-    std::vector<std::vector<double>> per_pascal_; ///< by column: forces on the nodes, upward, N
-};
 
 /// Puts the weight of the water on the interface and on the flank.
 ///
@@ -129,36 +99,6 @@ private:
     double gravity_;
     InterfaceColumns columns_;
 };
-
-/// What the film of sediment weighs by.
-struct FilmLoadParameters {
-    dem::SedimentFilm film;
-    double grain_density = 2600.0; ///< kg/m^3
-    double gravity = 0.0;          ///< m/s^2
-    double column_width = 0.0;     ///< m
-    /// Water in whose pressure on the base it lies, so that it weighs less by what it displaces;
-    /// none: it weighs as its grains, and other effects count what is in its pores.
-    std::optional<dem::WaterLevel> level = {};
-    double water_density = 0.0; ///< kg/m^3
-};
-
-/// Often enough for what sinks by some metres, and whenever a stratum comes.
-dem::Schedule film_schedule(const dem::SedimentFilm& film);
-
-/// Puts the weight of the film on the interface. It has no memory.
-class FilmLoad : public dem::Event {
-public:
-    FilmLoad(const Interface& interface, const FilmLoadParameters& parameters);
-
-    void begin(dem::State& state) override;
-    bool apply(dem::State& state, const dem::RigidBase& base) override;
-
-private:
-    FilmLoadParameters parameters_;
-    InterfaceColumns columns_;
-};
-
-FootwallLoad film_load(const FilmLoadParameters& parameters);
 
 /// @param pores       of the sediment, if there is any
 /// @param flank_left  side of the footwall whose flank takes water, m; none: the flank stays dry

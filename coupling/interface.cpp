@@ -1,5 +1,6 @@
 #include "coupling/interface.hpp"
 
+#include "coupling/interface_loads.hpp"
 #include "dem/base/place.hpp"
 #include "dem/columns.hpp"
 #include "dem/law.hpp"
@@ -108,6 +109,21 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
     const auto over = [](double error, double all) { return all > 0.0 ? error / all : 0.0; };
     return {over(hypotenuse(fx, fy), magnitude), over(std::abs(moment), moments),
             over(std::abs(power), powers)};
+}
+
+InterfaceColumns::InterfaceColumns(const Interface& interface, double width)
+    : width_(width), nodes_(interface.x.size()) {
+    for (double x = 0.0; x + width <= interface.x.back(); x += width)
+        per_pascal_.push_back(pressure_forces(interface, x, x + width));
+}
+
+void InterfaceColumns::put(State& state, std::string_view effect,
+                           std::span<const double> pressure) const {
+    const std::span<double> load = interface_load(state, effect, unknowns());
+    std::ranges::fill(load, 0.0);
+    for (std::size_t k = 0; k < std::min(pressure.size(), per_pascal_.size()); ++k)
+        for (std::size_t n = 0; n < nodes_; ++n)
+            load[2 * n + 1] -= pressure[k] * per_pascal_[k][n];
 }
 
 } // namespace listric::coupling

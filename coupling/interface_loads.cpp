@@ -1,6 +1,7 @@
 #include "coupling/interface_loads.hpp"
 
 #include <cassert>
+#include <numeric>
 
 namespace listric::coupling {
 
@@ -38,6 +39,14 @@ std::span<double> footwall_load(State& state, std::string_view effect, std::size
 
 std::span<double> interface_load(State& state, std::string_view effect, std::size_t unknowns) {
     return column_of(state, on_interface, effect, unknowns);
+}
+
+double weight_on_interface(const State& state, std::string_view effect) {
+    const auto loads = state.base_memory.find(on_interface);
+    if (loads == state.base_memory.end() || !loads->second.has(effect))
+        return 0.0;
+    const auto forces = loads->second.get<double>(effect); // vertical
+    return -std::accumulate(forces.begin(), forces.end(), 0.0);
 }
 
 std::vector<double> interface_loads(const State& state) {

@@ -19,6 +19,9 @@ namespace listric::coupling {
 std::span<double> footwall_load(dem::State& state, std::string_view effect, std::size_t unknowns);
 std::span<double> interface_load(dem::State& state, std::string_view effect, std::size_t unknowns);
 
+/// Weight of an effect's load on the interface, N per m of strike; 0 without.
+double weight_on_interface(const dem::State& state, std::string_view effect);
+
 /// Sum of the loads on the interface itself; empty without any.
 std::vector<double> interface_loads(const dem::State& state);
 

@@ -1,6 +1,8 @@
 #include "coupling/thermal_load.hpp"
 
 #include "coupling/interface_loads.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/base/place.hpp"
 #include "dem/base/target_line.hpp"
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace {
 
 /// Column of the base's nodes: their uplift when the wall last moved, m.
 constexpr const char* uplift_after_rift = "uplift_after_rift";
+constexpr const char* of_film = "film"; // of the loads on the interface
 constexpr const char *start_pressure = "at_start", *pressure_now = "pressure";
 
 /// Whether the wall has moved on its way to a travel.
@@ -116,6 +119,67 @@ FootwallLoad thermal_load(const std::vector<double>& knots, const ThermalPressur
             .take_solution = [&heat](const LoadSolution& anew) { heat.take_forces(anew.forces); }};
     };
     return {pressure_loads(fem::Boundary::base, knots), make_event};
+}
+
+FilmColumns film_columns(const SedimentFilm& film, const State& state, const RigidBase& base,
+                         double level, double column_width) {
+    constexpr int samples = 4; // the smooth ground bends twice in a column
+    FilmColumns columns;
+    const auto now = film.now(state, base);
+    if (!now)
+        return columns;
+    columns.porosity = now->porosity;
+    const GroundLevel discs(state);
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    for (double left = 0.0; left < now->right; left += column_width) {
+        double thickness = 0.0, wet = 0.0;
+        for (int k = 0; k < samples; ++k) {
+            const double x = left + (k + 0.5) / samples * column_width;
+            const double ground = std::max(discs.height(x), height_at(nodes, x));
+            const double here = now->thickness(x, ground);
+            thickness += here / samples;
+            wet += std::clamp(level - ground, 0.0, here) / samples;
+        }
+        columns.thickness.push_back(thickness);
+        columns.wet.push_back(wet);
+    }
+    return columns;
+}
+
+FilmLoad::FilmLoad(const Interface& interface, const FilmLoadParameters& parameters)
+    : Event(of_film, film_schedule(parameters.film), dem::Stage::load), parameters_(parameters),
+      columns_(interface, parameters.column_width) {}
+
+void FilmLoad::begin(State& state) { interface_load(state, name(), columns_.unknowns()); }
+
+bool FilmLoad::apply(State& state, const RigidBase& base) {
+    const double level = parameters_.level ? parameters_.level->at(state) : 0.0;
+    const double displaced = parameters_.level ? parameters_.water_density : 0.0;
+    const FilmColumns film =
+        film_columns(parameters_.film, state, base, level, parameters_.column_width);
+    std::vector<double> pressure;
+    for (std::size_t k = 0; k < film.thickness.size(); ++k)
+        pressure.push_back(
+            (1.0 - film.porosity) * parameters_.gravity *
+            (parameters_.grain_density * film.thickness[k] - displaced * film.wet[k]));
+    columns_.put(state, name(), pressure);
+    return false;
+}
+
+Schedule film_schedule(const SedimentFilm& film) {
+    constexpr double furthest = 25.0; // m
+    const Schedule& strata = film.deposition;
+    return {strata.interval / std::ceil(strata.spacing() / furthest), strata.calendar()};
+}
+
+FootwallLoad film_load(const FilmLoadParameters& parameters) {
+    return {{}, [parameters](const LoadSolution& solution) {
+                return LoadingEvent{
+                    .event = std::make_unique<FilmLoad>(solution.base.interface(), parameters),
+                    .measures = [](const State& state) {
+                        return NamedValues{{film_load_name, weight_on_interface(state, of_film)}};
+                    }};
+            }};
 }
 
 } // namespace listric::coupling

@@ -1,6 +1,5 @@
 #include "thermal/heat.hpp"
 
-#include "coupling/basin_water.hpp"
 #include "coupling/thermal_load.hpp"
 #include "thermal/rift_column.hpp"
 

@@ -3,7 +3,6 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/model/measured_well.hpp"
 #include "apps/model/model.hpp"
-#include "coupling/basin_water.hpp"
 #include "coupling/thermal_load.hpp"
 #include "dem/columns.hpp"
 #include "thermal/columns.hpp"
