@@ -126,7 +126,8 @@ def draw(frame: dict):
     figure = new_figure(11.5, height, 120)
     [time], unit = time_texts([frame["time_a"]], math.inf, frame["time_a"])
     figure.text(0.01, 1.0 - 0.1 / height,
-                f"{frame['scene'].upper()}, {moment_words(frame, frame['extension_km'])}, {time} {unit}", fontsize=13, weight="bold", va="top", color=INK)
+                f"{frame['scene'].upper()}, {moment_words(frame, frame['extension_km'])}, {time} {unit}",
+                fontsize=13, weight="bold", va="top", color=INK)
     columns = max(len(panels_of(columns_of(well))) for well in wells)
     grid = figure.add_gridspec(len(profiles) + len(wells), columns,
                                height_ratios=[2.6] * len(profiles) + [4.4] * len(wells))
