@@ -1,4 +1,4 @@
-"""`listric dataset`: equal bits on a second making, masks beside the traced faults, splits by shape, the Python loader.
+"""`listric dataset`: equal bits on a second making, masks where rock has come apart, splits by shape, the Python loader.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest dataset_test
 """
@@ -20,7 +20,8 @@ import listric as reader  # noqa: E402
 
 SHALLOW = "hanging_wall.thickness_m=5000"
 WIDTH = 3.0  # of a line in the mask, samples
-# Samples by depth, which the traced faults of `export` have; every fault is marked, however small its throw.
+DISC = 220.0
+# Samples by depth, as discs have; every fault is marked, however small its throw.
 PLAN = f"""scene = "lis1"
 accuracy = "draft"
 set = "hanging_wall.length_m=14000 hanging_wall.mean_radius_m=110 extension.distance_m=1000"
@@ -98,27 +99,26 @@ class DatasetOfTwoRuns(unittest.TestCase):
         self.assertEqual([row["outcome"] for row in rows_of(self.folder / "part")], ["finished", "not yet"])
         self.assertEqual(len(reader.Dataset(self.folder / "part", split=None)), 1)
 
-    def test_the_mask_lies_on_the_traced_faults(self):
+    def test_rock_has_come_apart_beside_the_mask(self):
         data = reader.Dataset(self.folder / "made", split=None)
-        beside = 0
+        ratios = []
         for number, row in enumerate(data.index):
-            axes, fault = data.numbers(number), data.section(number, "fault")["fault"]
-            lines = []  # in traces and samples
-            for line in reader.Run(self.folder / "runs/runs" / row["section"]).snapshots[-1].lines("faults"):
-                x, depth = np.asarray(line["x_m"]), np.asarray(line["depth_m"])
-                lines.append(np.stack([(x - axes["first_x_m"]) / axes["trace_spacing_m"],
-                                       (depth - axes["first_sample_m"]) / axes["sample_interval_m"]], axis=1))
-            marks = np.argwhere(fault == 1)
-            for mark in marks:
-                self.assertLess(min(distance(mark, line) for line in lines), 0.5 * WIDTH + 0.5)
-            for line in lines:  # but for what is nearly level, as slip along bedding
-                across, down = np.abs(line[-1] - line[0]) * (axes["trace_spacing_m"], axes["sample_interval_m"])
-                inside = line[(line >= 0).all(axis=1) & (line <= 255).all(axis=1)]
-                if down > across and len(inside):
-                    near = [np.hypot(*(marks - point).T).min() < WIDTH for point in inside]
-                    self.assertGreater(np.mean(near), 0.7)
-                    beside += sum(near)
-        self.assertGreater(beside, 8)
+            axes, arrays = data.numbers(number), data.section(number)
+            discs = reader.Run(self.folder / "runs/runs" / row["section"]).snapshots[-1].discs
+            old = discs["stratum"] == 0
+            x, y = discs["x"][old], discs["y"][old]
+            rise = y - discs["start_y"][old]
+            for trace, sample in np.argwhere(np.isin(arrays["fault"], (1, 2))):
+                away = x - (axes["first_x_m"] + trace * axes["trace_spacing_m"])
+                level = np.abs(y + axes["first_sample_m"] + sample * axes["sample_interval_m"]) < 1.5 * DISC
+                left, right = (rise[level & (side * away > DISC) & (side * away < 4 * DISC)] for side in (-1, 1))
+                if min(len(left), len(right)) > 5 and arrays["fault_throw"][trace, sample] != 0.0:
+                    step = abs(np.median(left) - np.median(right))
+                    ratios.append(step / abs(arrays["fault_throw"][trace, sample]))
+        self.assertGreater(len(ratios), 50)
+        # Blocks tilt, so that medians so far apart differ by more or less than the offset does.
+        self.assertTrue(0.6 < np.median(ratios) < 1.7, np.percentile(ratios, (5, 25, 50, 75, 95)))
+        self.assertGreater(np.mean(np.array(ratios) > 0.4), 0.8)
 
     def test_the_loader_hands_out_pairs_of_one_split(self):
         data = reader.Dataset(self.folder / "made", "train")
@@ -155,13 +155,6 @@ class DatasetOfTwoRuns(unittest.TestCase):
         ended = listric("dataset", self.folder / "tiny.toml", "--so-far",
                         "--output", self.folder / "runs/runs/0001-seed=1")
         self.assertEqual(ended.returncode, 2)  # the folder of a run
-
-
-def distance(point, line):
-    """From a point to a polyline."""
-    a, way = line[:-1], np.diff(line, axis=0)
-    t = np.clip(((point - a) * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), 1e-12), 0.0, 1.0)
-    return np.hypot(*(point - a - t[:, None] * way).T).min()
 
 
 if __name__ == "__main__":
