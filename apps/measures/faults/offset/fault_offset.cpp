@@ -3,6 +3,7 @@
 #include "apps/measures/faults/strain_ridges.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/contacts/cells.hpp"
+#include "dem/numbers/gradient.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -77,23 +78,19 @@ std::vector<double> slopes_of(const RisenRock& rock, double unit) {
     std::vector<double> slopes(rock.x.size(), 0.0);
     in_pieces(slopes.size(), 512, [&](std::size_t i, std::size_t end) {
         for (; i < end; ++i) {
-            double xx = 0.0, xy = 0.0, yy = 0.0, rise_x = 0.0, rise_y = 0.0;
+            GradientFit fit;
+            double xx = 0.0;
             cells.for_each_near(rock.x[i], rock.y[i], [&](std::int32_t row) {
                 const auto j = static_cast<std::size_t>(row);
                 const double dx = rock.x[j] - rock.x[i], dy = rock.y[j] - rock.y[i];
                 if (dx * dx + dy * dy > reach * reach || rock.stratum[j] != rock.stratum[i])
                     return;
-                const double rise = rock.rise[j] - rock.rise[i];
+                fit.add(dx, dy, 0.0, rock.rise[j] - rock.rise[i]);
                 xx += dx * dx;
-                xy += dx * dy;
-                yy += dy * dy;
-                rise_x += rise * dx;
-                rise_y += rise * dy;
             });
-            yy += level * xx;
-            const double determinant = xx * yy - xy * xy;
-            if (determinant > 1e-3 * xx * yy)
-                slopes[i] = (rise_x * yy - rise_y * xy) / determinant;
+            fit.add(0.0, std::sqrt(level * xx), 0.0, 0.0);
+            if (const auto gradient = fit.gradient(1e-3))
+                slopes[i] = gradient->yx;
         }
     });
     return slopes;
