@@ -96,7 +96,9 @@ public:
           horizons_(horizons.begin(), horizons.end()),
           room_(archive::make_setting(now.scene, now.parts), now.parts.base, now.state),
           map_(now.state, room_, spacing), porosity_(sediment_porosity(now, map_)),
-          rock_(rocks(now.state)), layer_(pre_rift_layer(options.pre_rift_layer)) {
+          rock_(rocks(now.state)), layer_(pre_rift_layer(options.pre_rift_layer)),
+          ground_porosity_(now.parts.sediment ? now.parts.sediment->surface_porosity
+                                              : pre_rift_porosity) {
         std::ranges::sort(horizons_, {}, &Horizon::stratum);
         for (const Horizon& horizon : horizons_)
             for (const Polyline& line : horizon.top)
@@ -116,12 +118,12 @@ public:
         const std::vector<double> tops = tops_at(x);
         const double surface = tops.empty() ? floor : tops.back();
         const std::size_t column = column_of(x);
-        double top = top_; // where the topmost rock begins
+        double top = surface;
         bool is_weak = false;
         for (std::size_t n = horizons_.size(); n-- > 0;) {
             const double bottom = n > 0 ? tops[n - 1] : floor;
-            while (bottom < tops[n] && bottom < top) {
-                const std::size_t row = row_of(std::min(top, surface) - 1e-6 * map_.spacing);
+            while (bottom < top) {
+                const std::size_t row = row_of(top - 1e-6 * map_.spacing);
                 // The cell's lower edge, or the horizon.
                 const double cell = map_.place(column, row).y - 0.5 * map_.spacing;
                 const double edge = std::max(bottom, std::min(cell, top - 1e-3 * map_.spacing));
@@ -133,6 +135,7 @@ public:
             }
         }
         layers.push_back({0.0, saturated_rock(law_, 0.0)});
+        cover(layers, top_ - surface, saturated_rock(law_, ground_porosity_).velocity);
         return layers;
     }
 
@@ -218,6 +221,7 @@ private:
     std::vector<double> porosity_;
     std::vector<std::uint32_t> rock_;
     double layer_; ///< thickness of the layers of pre-rift rock, m
+    double ground_porosity_;
     double top_ = 0.0;
 };
 

@@ -44,8 +44,8 @@ inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
 
 /// Traces side by side, from the breakaway to the right wall. Time and depth are 0 at the original
 /// surface, y = 0, in every trace; where rock is above it the first sample has a negative time or
-/// depth. The topmost rock reaches up to the first sample: neither its surface nor water above it
-/// reflects.
+/// depth. Above the ground all traces are as fast as fresh sediment, or as rock at the surface
+/// where there is none, as after a correction to a datum: neither ground nor water reflects.
 struct SeismicSection {
     SeismicOptions options = {}; ///< with spacing and interval as they are
     std::size_t traces = 0, samples = 0;

@@ -22,6 +22,12 @@ SeismicRock saturated_rock(const SeismicLaw& law, double porosity) {
             (1.0 - porosity) * law.grain_density + porosity * law.fluid_density};
 }
 
+void cover(std::vector<SeismicLayer>& layers, double thickness, double velocity) {
+    assert(!layers.empty() && velocity > 0.0);
+    layers.insert(layers.begin(),
+                  {thickness, {velocity, layers.front().rock.impedance() / velocity}});
+}
+
 std::vector<Reflection> reflections(std::span<const SeismicLayer> layers) {
     std::vector<Reflection> all;
     double depth = 0.0, time = 0.0;

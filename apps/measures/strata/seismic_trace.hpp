@@ -44,6 +44,11 @@ struct Reflection {
     double velocity = 0.0;    ///< of the layer above, m/s
 };
 
+/// Lays rock of a velocity (m/s) upon layers, so heavy that nothing reflects at their top: what is
+/// between a datum and the ground, alike in all traces.
+/// @param thickness  m
+void cover(std::vector<SeismicLayer>& layers, double thickness, double velocity);
+
 /// Boundaries of layers, from the datum down; the last layer has no end.
 std::vector<Reflection> reflections(std::span<const SeismicLayer> layers);
 

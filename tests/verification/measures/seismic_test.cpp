@@ -46,6 +46,19 @@ TEST(Seismic, VelocityIsTheTimeAverageOfMatrixAndFluid) {
     EXPECT_NEAR(saturated_rock(law, 0.3).density, 2155.0, 1e-9);
 }
 
+// Fast, slow and cracked ground at the same depth below the datum is at the same time.
+TEST(Seismic, WhatIsAboveTheGroundShiftsNoTrace) {
+    for (const double porosity : {0.0, 0.2, 0.5}) {
+        std::vector<SeismicLayer> layers{{100.0, saturated_rock({}, porosity)}};
+        layers.push_back({0.0, saturated_rock({}, 0.1)});
+        cover(layers, 750.0, 2400.0);
+        const std::vector<Reflection> all = reflections(layers);
+        ASSERT_EQ(all.size(), 2u);
+        EXPECT_DOUBLE_EQ(all[0].time, 2.0 * 750.0 / 2400.0);
+        EXPECT_NEAR(all[0].coefficient, 0.0, 1e-15);
+    }
+}
+
 TEST(Seismic, FlatLayersReflectAtTheirTimesWithinASample) {
     constexpr double interval = 0.002;
     const std::vector<SeismicLayer> layers = flat_layers();

@@ -21,6 +21,7 @@ namespace {
 // Units.
 constexpr double fit_reach = 1.9;     ///< of the fit of a slope, as of ShearField
 constexpr double block_reach = 8.0;   ///< of the median that is the tilt of a block
+constexpr double zone_reach = 3.5;    ///< from a fault, within which rock is none of its blocks
 constexpr double step_width = 3.3;    ///< of a sharp step after fit and smoothing
 constexpr double ridge_spacing = 2.0; ///< of parallel lines
 constexpr double side_height = 1.5;   ///< of bands beside a point, above and below it
@@ -96,16 +97,17 @@ std::vector<double> slopes_of(const RisenRock& rock, double unit) {
     return slopes;
 }
 
-/// Median of the slopes of a stratum around a point; 0 where there are none. Younger strata have
-/// turned less.
+/// Median of the slopes of a stratum around a point, from so many units to its sides on; 0 where
+/// there are none. Younger strata have turned less.
 double tilt_at(Point p, std::int32_t stratum, const RisenRock& rock, std::span<const double> slopes,
-               const Cells& cells, double unit) {
+               const Cells& cells, double unit, double from) {
     const double reach = block_reach * unit;
     std::vector<double> near;
     cells.for_each_near(p.x, p.y, [&](std::int32_t row) {
         const auto i = static_cast<std::size_t>(row);
         const double dx = rock.x[i] - p.x, dy = rock.y[i] - p.y;
-        if (rock.stratum[i] == stratum && dx * dx + dy * dy < reach * reach)
+        if (rock.stratum[i] == stratum && dx * dx + dy * dy < reach * reach &&
+            std::abs(dx) >= from * unit)
             near.push_back(slopes[i]);
     });
     return near.empty() ? 0.0 : median(std::move(near));
@@ -122,8 +124,8 @@ struct SlopedRock {
         : rock(std::move(risen)), unit(unit_of_lengths), slopes(slopes_of(rock, unit)),
           cells(rock.x, rock.y, block_reach * unit) {}
 
-    double tilt(Point p, std::int32_t stratum) const {
-        return tilt_at(p, stratum, rock, slopes, cells, unit);
+    double tilt(Point p, std::int32_t stratum, double from = 0.0) const {
+        return tilt_at(p, stratum, rock, slopes, cells, unit, from);
     }
 };
 
@@ -161,7 +163,7 @@ Steps steps_at(const Polyline& line, std::size_t k, const SlopedRock& sloped) {
             return;
         const std::int32_t stratum = rock.stratum[i];
         if (!tilts.contains(stratum))
-            tilts[stratum] = sloped.tilt(p, stratum);
+            tilts[stratum] = sloped.tilt(p, stratum, zone_reach);
         const double rise = rock.rise[i] - tilts[stratum] * (rock.x[i] - p.x);
         for (std::size_t band = 0; band < bands; ++band) {
             const double from = nearest_band + static_cast<double>(band) * band_step;

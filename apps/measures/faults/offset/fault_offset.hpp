@@ -26,11 +26,10 @@ struct OffsetFault {
 /// out.
 ///
 /// The offset at a point is the step between discs to its left and its right at the same height,
-/// without the block's tilt: of the three pairs of bands one to five units away the one that
-/// differs most. Where less than 65 % of it lies between the innermost ones a horizon bends and is
-/// not cut: the offset is 0 there, as it is where one side has too few discs.
-///
-/// Of a zone three units wide a quarter of the step goes into the tilt, of a sharp one nothing.
+/// without the tilt of the blocks 3.5 to eight units away: of the three pairs of bands one to five
+/// units away the one that differs most. Where less than 65 % of it lies between the innermost ones
+/// a horizon bends and is not cut: the offset is 0 there, as it is where one side has too few
+/// discs.
 ///
 /// @param before  the last window's start
 /// @param least   offset of faults that are looked for, m
