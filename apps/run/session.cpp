@@ -23,12 +23,14 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log, Output
 }
 
 RunOutcome Session::run() {
-    run_.expect(forecast_now(run_.scene, run_.target().m, run_.options.threads, run_.ranks()));
-    if (!run_.options.warned)
+    const RunOptions& options = run_.options;
+    run_.expect(forecast_now(run_.scene, run_.target().m, options.threads, run_.ranks(),
+                             options.figures && options.lean == Lean::no));
+    if (!options.warned)
         for (const std::string& warning : run_.scene.warnings)
             run_.log.say("warning: " + warning);
     try {
-        if (!run_.options.resume || !resume())
+        if (!options.resume || !resume())
             begin();
         extend();
         finish();

@@ -234,15 +234,17 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     return p;
 }
 
-Forecast forecast_now(const Scene& scene, double target, int threads, int ranks) {
+Forecast forecast_now(const Scene& scene, double target, int threads, int ranks, bool draws) {
     const ModelParts parts = make_parts(scene);
     CycleSpeed speed = measure_speed(estimated_discs(scene), threads, 0.1, parts.accounts_energy);
     speed.team *= ranks;
     Scene to_target = scene;
     to_target.extension.distance = target;
     Forecast forecast = predict(to_target, speed).forecast;
+    if (!draws)
+        forecast.after = 0.0;
     // Where the team leaves no core to them, pictures drawn beside the cycle take its time.
-    if (threads * ranks >= usable_cores()) {
+    if (draws && threads * ranks >= usable_cores()) {
         const Motion& motion = parts.base.motion;
         forecast.picture = run_prices.figure_beside / speed.one_thread;
         for (const double at : scene.output.figures)

@@ -68,6 +68,7 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
 
 /// Predicted wall time of a run to an extension, m, that begins now, beside other programs.
 /// @param threads  of each rank
-Forecast forecast_now(const Scene& scene, double target, int threads, int ranks);
+/// @param draws    figures
+Forecast forecast_now(const Scene& scene, double target, int threads, int ranks, bool draws);
 
 } // namespace listric
