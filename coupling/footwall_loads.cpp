@@ -2,10 +2,14 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
+#include "dem/base/rest.hpp"
 #include "dem/base/target_line.hpp"
+#include "dem/columns.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <iterator>
 
 namespace listric::coupling {
 
@@ -201,6 +205,14 @@ double FootwallLoads::cover(double x) const {
     return height;
 }
 
+double FootwallLoads::sediment(double x) const {
+    double thickness = 0.0;
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.sediment)
+            thickness += effect.sediment(x);
+    return thickness;
+}
+
 fem::Load FootwallLoads::elsewhere(const State& state) const {
     std::vector<fem::Load> loads;
     for (const LoadingEvent& effect : *effects_)
@@ -251,6 +263,53 @@ void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, State& st
     moved.resize(base.interface().unknowns());
     std::ranges::copy(base.forces_for(moved), footwall_load(state, name, moved.size()).begin());
     set_creep(state, {.step = step, .stress = std::move(left.stress), .work = footwall.work()});
+}
+
+namespace {
+
+constexpr double between = 25.0; // m of travel: as the loads
+constexpr const char* forces_name = "forces";
+
+/// Moves discs by the displacement of the nodes below them. @param moved  x and y by node, m
+void take_along(State& state, std::span<const double> moved) {
+    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+    std::vector<Point> aside, up;
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        const double x = nodes.x[k] + nodes.ux[k];
+        if (!up.empty() && x <= up.back().x)
+            continue;
+        aside.push_back({x, moved[2 * k]});
+        up.push_back({x, moved[2 * k + 1]});
+    }
+    const TargetLine by_x(std::move(aside)), by_y(std::move(up));
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = d.x[i];
+        d.x[i] += by_x.height(x);
+        d.y[i] += by_y.height(x);
+    }
+}
+
+} // namespace
+
+PromptBase::PromptBase(const ElasticBase& base, const Calendar& calendar)
+    : Event("prompt_base", {between / calendar.rate(), calendar}, dem::Stage::load), base_(&base) {}
+
+void PromptBase::begin(State&) {
+    memory.resize(base_->interface().unknowns());
+    memory.add<double>(forces_name, "N", 0.0);
+}
+
+bool PromptBase::apply(State& state, const RigidBase& base) {
+    std::vector<double> now(base_->interface().unknowns(), 0.0), change(now.size());
+    add_footwall_loads(state, now);
+    const auto before = memory.get<double>(forces_name);
+    std::ranges::transform(now, before, change.begin(), std::minus());
+    std::ranges::copy(now, before.begin());
+    if (!rests(base.motion, schedule().due(applied + 1)))
+        return false;
+    take_along(state, base_->displace(state, change));
+    return true;
 }
 
 } // namespace listric::coupling
