@@ -5,6 +5,7 @@
 #include "dem/base/rest.hpp"
 #include "dem/base/target_line.hpp"
 #include "dem/columns.hpp"
+#include "dem/pushes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -270,6 +271,23 @@ namespace {
 constexpr double between = 25.0; // m of travel: as the loads
 constexpr const char* forces_name = "forces";
 
+/// Adds the discs' weight to the nodes on both sides of each, N.
+void add_weight(const State& state, double gravity, std::span<double> forces) {
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    const ConstDiscColumns d = disc_columns(state);
+    const Pushes pushes(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto next = std::ranges::upper_bound(nodes.x, d.x[i]) - nodes.x.begin();
+        const auto right =
+            static_cast<std::size_t>(std::clamp(next, std::ptrdiff_t{1}, std::ssize(nodes.x) - 1));
+        const double from = nodes.x[right - 1], to = nodes.x[right];
+        const double share = std::clamp((d.x[i] - from) / (to - from), 0.0, 1.0);
+        const double weight = gravity * d.mass[i] - pushes[i].y;
+        forces[2 * right + 1] -= share * weight;
+        forces[2 * right - 1] -= (1.0 - share) * weight;
+    }
+}
+
 /// Moves discs by the displacement of the nodes below them. @param moved  x and y by node, m
 void take_along(State& state, std::span<const double> moved) {
     const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
@@ -303,6 +321,7 @@ void PromptBase::begin(State&) {
 bool PromptBase::apply(State& state, const RigidBase& base) {
     std::vector<double> now(base_->interface().unknowns(), 0.0), change(now.size());
     add_footwall_loads(state, now);
+    add_weight(state, base_->parameters().gravity, now);
     const auto before = memory.get<double>(forces_name);
     std::ranges::transform(now, before, change.begin(), std::minus());
     std::ranges::copy(now, before.begin());

@@ -146,11 +146,11 @@ void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, dem::Stat
 void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const FootwallLoads& loads,
                      const dem::State& state);
 
-/// In pauses that go by steps, takes the base at once to where the effects' loads move it, and the
-/// discs along with what is below them. Years of cooling, and the sediment and water that follow,
-/// load it in a step of some 200 m of travel; left to its modes it needs 400 m to go three quarters
-/// of the way, so that it would be late by two or three steps. What discs do to the base moves it
-/// by its modes, as everywhere.
+/// In pauses that go by steps, takes the base at once to where the effects' loads and the weight of
+/// discs that came and went move it, and discs along with what is below them. Years of cooling, and
+/// the sediment and water that follow, load it in a step of some 200 m of travel; left to its modes
+/// it needs 400 m to go three quarters of the way, so that it would be late by two or three steps.
+/// What else discs do to the base moves it by its modes, as everywhere.
 ///
 /// Applied behind the loads, as often as the most frequent of them; its memory are their forces
 /// then. For a base whose stiffness stays: one that relaxes has other forces for the same place.

@@ -80,5 +80,36 @@ TEST(PromptBase, TakesBaseAndDiscsToWhereLoadsMoveThem) {
     }
 }
 
+/// A film that a disc takes the place of moves nothing; what comes besides does.
+TEST(PromptBase, CountsTheDiscsThatCome) {
+    Paused paused;
+    for (int k = 0; k < 4; ++k)
+        paused.load(0.0);
+    constexpr double mass = 1e7;
+    const auto uy = [&] { return base_node_columns(std::as_const(paused.state)).uy; };
+    ASSERT_EQ(uy()[30], 0.0);
+    const DiscColumns d = disc_columns(paused.state);
+    const std::size_t node = 40;
+    d.x[0] =
+        0.25 * paused.elastic.interface().x[node] + 0.75 * paused.elastic.interface().x[node + 1];
+    paused.load(0.0);
+    const std::vector<double> before(uy().begin(), uy().end());
+    d.mass[0] += mass;
+    paused.load(0.0);
+    std::vector<double> weight(paused.elastic.interface().unknowns(), 0.0);
+    weight[2 * node + 1] = -0.25 * mass * standard_gravity;
+    weight[2 * node + 3] = -0.75 * mass * standard_gravity;
+    const std::vector<double> moved = paused.elastic.displacement(weight);
+    for (std::size_t k = 0; k < before.size(); ++k)
+        EXPECT_NEAR((uy()[k] - before[k]) / moved[2 * k + 1], 1.0, 1e-9);
+    const std::vector<double> sunk(uy().begin(), uy().end());
+    std::ranges::copy(weight, interface_load(paused.state, "film", weight.size()).begin());
+    d.mass[0] -= mass;
+    paused.state.clock.travel = paused.prompt.next_due();
+    paused.prompt.apply(paused.state, paused.base);
+    for (std::size_t k = 0; k < sunk.size(); ++k)
+        EXPECT_NEAR(uy()[k], sunk[k], 1e-9);
+}
+
 } // namespace
 } // namespace listric::prompt_base_test
