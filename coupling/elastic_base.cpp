@@ -312,6 +312,24 @@ void ElasticBase::move_modes(State& state, double step) {
     }
 }
 
+std::vector<double> ElasticBase::displace(State& state, std::span<const double> forces) const {
+    assert(forces.size() == interface_.unknowns());
+    std::vector<double> modal(modes_.count()), moved(forces.size());
+    add_rows(modes_.by_unknown, forces, modal);
+    const auto displacement = mode_columns(state).displacement;
+    for (std::size_t k = 0; k < modal.size(); ++k) {
+        modal[k] *= modes_.compliance[k];
+        displacement[k] += modal[k];
+    }
+    add_rows(modes_.by_mode, modal, moved);
+    const BaseNodeColumns nodes = base_node_columns(state);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        nodes.ux[k] += moved[2 * k];
+        nodes.uy[k] += moved[2 * k + 1];
+    }
+    return moved;
+}
+
 WindowBalance ElasticBase::window(const State& state) const {
     const ConstWindowSums sums = window_sums(state);
     const double cycles = std::max(1.0, sums.cycles);

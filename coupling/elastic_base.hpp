@@ -84,6 +84,10 @@ public:
     /// Gives the modes the place and the velocity that the nodes have.
     void express(dem::State& state) const;
 
+    /// Moves modes and nodes by what forces on the interface's unknowns displace them, and returns
+    /// the displacement of the nodes, x and y of each, m. Velocities stay.
+    std::vector<double> displace(dem::State& state, std::span<const double> forces) const;
+
     /// Means of the window that has begun.
     WindowBalance window(const dem::State& state) const;
 

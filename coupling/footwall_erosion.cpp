@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 namespace listric::coupling {
 
@@ -154,13 +156,21 @@ FootwallErosion::Areas FootwallErosion::areas() const {
     return areas;
 }
 
-double FootwallErosion::cover(double x) const {
+double FootwallErosion::at(double x, std::span<const double> by_knot) const {
     std::vector<Point> line;
     for (std::size_t k = 0; k < response_.x.size(); ++k)
-        line.push_back(
-            {response_.x[k], memory.get<double>("deposited")[k] - memory.get<double>("eroded")[k]});
+        line.push_back({response_.x[k], by_knot[k]});
     return x < response_.x.front() ? 0.0 : TargetLine(line).height(x);
 }
+
+double FootwallErosion::cover(double x) const {
+    std::vector<double> height;
+    std::ranges::transform(memory.get<double>("deposited"), memory.get<double>("eroded"),
+                           std::back_inserter(height), std::minus());
+    return at(x, height);
+}
+
+double FootwallErosion::sediment(double x) const { return at(x, memory.get<double>("deposited")); }
 
 bool FootwallErosion::apply(State& state, const RigidBase&) {
     const FootwallCover cover{memory.get<double>("eroded"), memory.get<double>("deposited")};
@@ -191,6 +201,7 @@ FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, 
                             .amounts = [&erosion](const State&) { return erosion.pressure(); },
                             .load_elsewhere = [&erosion](const State&) { return erosion.load(); },
                             .cover = [&erosion](double x) { return erosion.cover(x); },
+                            .sediment = [&erosion](double x) { return erosion.sediment(x); },
                             .measures =
                                 [&erosion](const State&) {
                                     const auto [eroded, deposited] = erosion.areas();

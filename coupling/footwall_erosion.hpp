@@ -114,9 +114,12 @@ public:
         double eroded, deposited; ///< m^2
     };
     Areas areas() const;
-    double cover(double x) const; ///< height that sediment less erosion has brought, m
+    double cover(double x) const;    ///< height that sediment less erosion has brought, m
+    double sediment(double x) const; ///< thickness of the sediment, m
 
 private:
+    double at(double x, std::span<const double> by_knot) const;
+
     SurfaceResponse response_;
     std::vector<double> forces_;
     Uplift uplift_;

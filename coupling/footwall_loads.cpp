@@ -2,10 +2,15 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
+#include "dem/base/rest.hpp"
 #include "dem/base/target_line.hpp"
+#include "dem/columns.hpp"
+#include "dem/pushes.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <iterator>
 
 namespace listric::coupling {
 
@@ -201,6 +206,14 @@ double FootwallLoads::cover(double x) const {
     return height;
 }
 
+double FootwallLoads::sediment(double x) const {
+    double thickness = 0.0;
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.sediment)
+            thickness += effect.sediment(x);
+    return thickness;
+}
+
 fem::Load FootwallLoads::elsewhere(const State& state) const {
     std::vector<fem::Load> loads;
     for (const LoadingEvent& effect : *effects_)
@@ -251,6 +264,71 @@ void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, State& st
     moved.resize(base.interface().unknowns());
     std::ranges::copy(base.forces_for(moved), footwall_load(state, name, moved.size()).begin());
     set_creep(state, {.step = step, .stress = std::move(left.stress), .work = footwall.work()});
+}
+
+namespace {
+
+constexpr double between = 25.0; // m of travel: as the loads
+constexpr const char* forces_name = "forces";
+
+/// Adds the discs' weight to the nodes on both sides of each, N.
+void add_weight(const State& state, double gravity, std::span<double> forces) {
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    const ConstDiscColumns d = disc_columns(state);
+    const Pushes pushes(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto next = std::ranges::upper_bound(nodes.x, d.x[i]) - nodes.x.begin();
+        const auto right =
+            static_cast<std::size_t>(std::clamp(next, std::ptrdiff_t{1}, std::ssize(nodes.x) - 1));
+        const double from = nodes.x[right - 1], to = nodes.x[right];
+        const double share = std::clamp((d.x[i] - from) / (to - from), 0.0, 1.0);
+        const double weight = gravity * d.mass[i] - pushes[i].y;
+        forces[2 * right + 1] -= share * weight;
+        forces[2 * right - 1] -= (1.0 - share) * weight;
+    }
+}
+
+/// Moves discs by the displacement of the nodes below them. @param moved  x and y by node, m
+void take_along(State& state, std::span<const double> moved) {
+    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+    std::vector<Point> aside, up;
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        const double x = nodes.x[k] + nodes.ux[k];
+        if (!up.empty() && x <= up.back().x)
+            continue;
+        aside.push_back({x, moved[2 * k]});
+        up.push_back({x, moved[2 * k + 1]});
+    }
+    const TargetLine by_x(std::move(aside)), by_y(std::move(up));
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = d.x[i];
+        d.x[i] += by_x.height(x);
+        d.y[i] += by_y.height(x);
+    }
+}
+
+} // namespace
+
+PromptBase::PromptBase(const ElasticBase& base, const Calendar& calendar)
+    : Event("prompt_base", {between / calendar.rate(), calendar}, dem::Stage::load), base_(&base) {}
+
+void PromptBase::begin(State&) {
+    memory.resize(base_->interface().unknowns());
+    memory.add<double>(forces_name, "N", 0.0);
+}
+
+bool PromptBase::apply(State& state, const RigidBase& base) {
+    std::vector<double> now(base_->interface().unknowns(), 0.0), change(now.size());
+    add_footwall_loads(state, now);
+    add_weight(state, base_->parameters().gravity, now);
+    const auto before = memory.get<double>(forces_name);
+    std::ranges::transform(now, before, change.begin(), std::minus());
+    std::ranges::copy(now, before.begin());
+    if (!rests(base.motion, schedule().due(applied + 1)))
+        return false;
+    take_along(state, base_->displace(state, change));
+    return true;
 }
 
 } // namespace listric::coupling

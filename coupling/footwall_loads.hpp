@@ -75,6 +75,7 @@ struct LoadingEvent {
     /// Height that the effect has added to the footwall's surface left of the breakaway by now, m;
     /// none: nothing.
     std::function<double(double x)> cover = {};
+    std::function<double(double x)> sediment = {}; ///< thickness of what is sediment there, m
     std::function<NamedValues(const dem::State&)> measures = {};
     /// Takes the solution for the unit loads on a footwall of another stiffness; none: there are
     /// no unit loads.
@@ -113,6 +114,7 @@ public:
 
     /// Height that the effects have added to the footwall's surface left of the breakaway, m.
     double cover(double x) const;
+    double sediment(double x) const; ///< thickness of what is sediment there, m
 
     /// Load on the footwall elsewhere than on the interface.
     fem::Load elsewhere(const dem::State& state) const;
@@ -143,5 +145,24 @@ void put_stress_left(fem::Footwall& footwall, const ElasticBase& base, dem::Stat
 /// fem::FootwallError.
 void solve_for_field(fem::Footwall& footwall, const ElasticBase& base, const FootwallLoads& loads,
                      const dem::State& state);
+
+/// In pauses that go by steps, takes the base at once to where the effects' loads and the weight of
+/// discs that came and went move it, and discs along with what is below them. Years of cooling, and
+/// the sediment and water that follow, load it in a step of some 200 m of travel; left to its modes
+/// it needs 400 m to go three quarters of the way, so that it would be late by two or three steps.
+/// What else discs do to the base moves it by its modes, as everywhere.
+///
+/// Applied behind the loads, as often as the most frequent of them; its memory are their forces
+/// then. For a base whose stiffness stays: one that relaxes has other forces for the same place.
+class PromptBase : public dem::Event {
+public:
+    PromptBase(const ElasticBase& base, const dem::Calendar& calendar);
+
+    void begin(dem::State& state) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
+
+private:
+    const ElasticBase* base_;
+};
 
 } // namespace listric::coupling

@@ -8,13 +8,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace listric::thermal {
 
 using namespace dem;
 
-GroundLine::GroundLine(std::vector<Point> points) : points_(std::move(points)) {
-    assert(!points_.empty());
+GroundLine::GroundLine(std::vector<Point> points, std::vector<double> sediment)
+    : points_(std::move(points)), sediment_(std::move(sediment)) {
+    assert(!points_.empty() && (sediment_.empty() || sediment_.size() == points_.size()));
 }
 
 /// Number of the first point beyond x.
@@ -31,6 +33,18 @@ double GroundLine::height(double x) const {
         return points_.back().y;
     const Point a = points_[k - 1], b = points_[k];
     return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+}
+
+double GroundLine::sediment(double x) const {
+    if (sediment_.empty())
+        return 0.0;
+    const std::size_t k = after(x);
+    if (k == 0)
+        return sediment_.front();
+    if (k == points_.size())
+        return sediment_.back();
+    const double share = (x - points_[k - 1].x) / (points_[k].x - points_[k - 1].x);
+    return sediment_[k - 1] + share * (sediment_[k] - sediment_[k - 1]);
 }
 
 double GroundLine::highest() const { return std::ranges::max(points_, {}, &Point::y).y; }
@@ -95,23 +109,75 @@ double uplift_at(const State& state, double x) {
            (beyond > 0.0 ? exponential(-beyond / bends_in) : 1.0);
 }
 
+namespace {
+
+/// A ground that is made from left to right.
+struct Ground {
+    std::vector<Point> points;
+    std::vector<double> sediment; ///< by point
+
+    void add(Point p, double its_sediment = 0.0) {
+        points.push_back(p);
+        sediment.push_back(its_sediment);
+    }
+};
+
+/// Thickness of the discs' sediment at x.
+double sediment_of_discs(const State& state, const GroundLevel& level, double x) {
+    const GroundLevel rock(state, std::numeric_limits<double>::infinity());
+    return std::max(0.0, level.height(x) - rock.height(x));
+}
+
+/// Ways from the hanging wall at which the ground beside it is known: wider and wider apart.
+std::vector<double> ways_beside(double step) {
+    constexpr double farthest = 300e3, growth = 1.25; // m; of the way
+    std::vector<double> ways;
+    for (double way = step; way < farthest; way *= growth)
+        ways.push_back(way);
+    return ways;
+}
+
+/// The rock left of x.
+void add_left(Ground& ground, const State& state, const GroundBeside& beside, double left,
+              double step) {
+    const auto add = [&](double x) {
+        const Cover cover = beside.cover ? beside.cover(x) : Cover();
+        ground.add({x, beside.left + uplift_at(state, x) + cover.height}, cover.sediment);
+    };
+    const std::vector<double> ways = ways_beside(step);
+    for (auto way = ways.rbegin(); way != ways.rend(); ++way)
+        add(left - *way);
+    add(left);
+}
+
+/// The rock right of the wall, with the sediment on it.
+void add_right(Ground& ground, const State& state, const GroundBeside& beside,
+               const GroundLevel& level, double wall, double step) {
+    const double most = beside.film ? sediment_of_discs(state, level, wall) : 0.0;
+    std::optional<TargetLine> target;
+    if (most > 0.0)
+        target = beside.film->target_at(state.clock.travel);
+    const auto add = [&](double x, double of) {
+        const double rock = beside.right + uplift_at(state, of);
+        const double sediment = target ? std::clamp(target->height(of) - rock, 0.0, most) : 0.0;
+        ground.add({x, rock + sediment}, sediment);
+    };
+    const double right = std::max(wall, ground.points.back().x);
+    add(right, wall);
+    for (const double way : ways_beside(step))
+        add(right + way, right + way);
+}
+
+} // namespace
+
 GroundLine ground_line(const State& state, const RigidBase& base, const GroundBeside& beside,
                        double least_age) {
     const double step = 2.0 * state.mean_radius;
     const double wall = beside.wall_x + wall_way(base, state.clock.extension.m);
     const std::vector<Point> trace = base_points(state, base, step);
     const double left = trace.front().x;
-    const auto beside_at = [&](double x) {
-        return x > left
-                   ? beside.right + uplift_at(state, x)
-                   : beside.left + uplift_at(state, x) + (beside.cover ? beside.cover(x) : 0.0);
-    };
-    // Wider and wider apart, on both sides.
-    constexpr double farthest = 300e3, growth = 1.25; // m; of the distance
-    std::vector<Point> points{{left, beside_at(left)}};
-    for (double away = step; away < farthest; away *= growth)
-        points.push_back({left - away, beside_at(left - away)});
-    std::ranges::reverse(points);
+    Ground ground;
+    add_left(ground, state, beside, left, step);
     const GroundLevel level(state, least_age);
     std::size_t next = 0;
     const auto base_height = [&](double x) {
@@ -124,16 +190,13 @@ GroundLine ground_line(const State& state, const RigidBase& base, const GroundBe
     };
     // A bare scarp may be steeper than columns are wide: it goes point by point.
     for (const Point& p : trace)
-        if (p.x > points.back().x && p.x < left + step && p.y > level.height(p.x))
-            points.push_back(p);
+        if (p.x > ground.points.back().x && p.x < left + step && p.y > level.height(p.x))
+            ground.add(p);
     for (double x = left + 0.5 * step; x < wall; x += step)
-        if (x > points.back().x)
-            points.push_back({x, std::max(level.height(x), base_height(x))});
-    points.push_back({std::max(wall, points.back().x), beside_at(wall)});
-    const double right = points.back().x;
-    for (double away = step; away < farthest; away *= growth)
-        points.push_back({right + away, beside_at(right + away)});
-    return GroundLine(std::move(points));
+        if (x > ground.points.back().x)
+            ground.add({x, std::max(level.height(x), base_height(x))});
+    add_right(ground, state, beside, level, wall, step);
+    return GroundLine(std::move(ground.points), std::move(ground.sediment));
 }
 
 } // namespace listric::thermal

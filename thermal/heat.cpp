@@ -1,6 +1,7 @@
 #include "thermal/heat.hpp"
 
 #include "dem/columns.hpp"
+#include "dem/numbers/elementary.hpp"
 #include "thermal/columns.hpp"
 #include "thermal/maturity.hpp"
 
@@ -62,8 +63,8 @@ HeatCells Heat::cells(const State& state) const {
         all.temperature.push_back(temperature[i]);
         all.is_new.push_back(known[i] < 0.0);
         if (d.stratum[i] > 0) {
-            const double porosity =
-                compacts ? state.discs.get(dem::columns::porosity)[i] : setting_.surface_porosity;
+            const double porosity = compacts ? state.discs.get(dem::columns::porosity)[i]
+                                             : setting_.pores.surface_porosity;
             const double grains = d.mass[i] / setting_.grain_density;
             all.conductivity.push_back(sediment_conductivity(p_.grain_conductivity, porosity));
             all.capacity.push_back(grains *
@@ -103,14 +104,28 @@ GroundLine Heat::solved_ground(const State& state, const RigidBase& base) const 
                        std::max(0.0, since) + almost * schedule().gap(applied + 1).m);
 }
 
-Heat::Blanket::Blanket(const Heat& heat, const State& state, const RigidBase& base)
-    : film_(heat.setting_.film ? heat.setting_.film->now(state, base) : std::nullopt) {
-    if (film_)
-        conductivity_ = sediment_conductivity(heat.p_.grain_conductivity, film_->porosity);
-}
-
-double Heat::Blanket::at(double x, const GroundLine& ground) const {
-    return film_ ? film_->thickness(x, ground.height(x)) / conductivity_ : 0.0;
+std::vector<double> Heat::blanket(const State& state, const RigidBase& base,
+                                  const GroundLine& ground, const Sites& sites) const {
+    const auto& fill = setting_.beside.film;
+    const auto film = fill ? fill->now(state, base) : std::nullopt;
+    const double of_film =
+        film ? sediment_conductivity(p_.grain_conductivity, film->porosity) : 1.0;
+    std::vector<double> resistance;
+    for (std::size_t i = 0; i < sites.count(); ++i) {
+        const double x = sites.x[i], sediment = ground.sediment(x);
+        resistance.push_back(film ? film->thickness(x, ground.height(x)) / of_film : 0.0);
+        if (i < state.discs.rows() || sediment <= 0.0)
+            continue;
+        // No more than lies on the cell's way to the ground, which may be a cliff.
+        const Point place{x, sites.y[i]};
+        const auto foot = ground.nearest(place, std::abs(ground.depth(place)));
+        const double porosity = setting_.pores.surface_porosity *
+                                exponential(-setting_.pores.coefficient * 0.5 * sediment);
+        resistance.back() +=
+            std::clamp(foot->distance, 0.0, sediment) *
+            (1.0 / sediment_conductivity(p_.grain_conductivity, porosity) - 1.0 / p_.conductivity);
+    }
+    return resistance;
 }
 
 bool Heat::start(State& state, const RigidBase& base) {
@@ -181,11 +196,8 @@ bool Heat::apply(State& state, const RigidBase& base) {
     book_discs(state, all);
     const GroundLine ground = ground_line(state, base, setting_.beside);
     const CutCells cut = cut_cells(all.sites, ends(), ground, knots_);
-    const Blanket film(*this, state, base);
-    std::vector<double> blanket;
-    for (const double x : all.sites.x)
-        blanket.push_back(film.at(x, ground));
-    const HeatNetwork network = heat_network(all.sites, cut.faceted, all.conductivity, blanket);
+    const HeatNetwork network = heat_network(all.sites, cut.faceted, all.conductivity,
+                                             blanket(state, base, ground, all.sites));
     const double seconds = schedule().seconds(applied + 1);
     const std::vector<double> before = all.temperature;
     const HeatFlows flows =
@@ -250,15 +262,15 @@ SurfaceHeatFlow::SurfaceHeatFlow(const Heat& heat, const State& state, const Rig
     : ground_temperature_(heat.parameters().surface_temperature) {
     constexpr double deepest = 6e3; // m: where points are coarse none is nearer
     const GroundLine ground = heat.solved_ground(state, base);
-    const Heat::Blanket film(heat, state, base);
     const HeatCells all = heat.cells(state);
+    const std::vector<double> blanket = heat.blanket(state, base, ground, all.sites);
     for (std::size_t i = 0; i < all.sites.count(); ++i) {
         if (all.is_new[i])
             continue;
         const double x = all.sites.x[i], depth = ground.depth({x, all.sites.y[i]});
         if (depth > 0.0 && depth <= deepest)
-            sites_.push_back(
-                {x, depth, all.temperature[i], 1.0 / all.conductivity[i], film.at(x, ground)});
+            sites_.push_back({x, depth, all.temperature[i], 1.0 / all.conductivity[i], blanket[i],
+                              i >= state.discs.rows() && ground.sediment(x) > 0.0});
     }
     std::ranges::sort(sites_, [](const Site& a, const Site& b) {
         return a.x != b.x ? a.x < b.x : a.depth < b.depth;
@@ -276,12 +288,15 @@ double SurfaceHeatFlow::at(double x) const {
                 window.push_back(*site);
     }
     std::ranges::sort(window, {}, &Site::depth);
-    double resistivities = 0.0, flow = 0.0, square = 0.0;
-    for (std::size_t k = 0; k < window.size(); ++k) {
-        resistivities += window[k].resistivity;
-        const double resistance =
-            window[k].blanket + window[k].depth * resistivities / static_cast<double>(k + 1);
-        flow += resistance * (window[k].temperature - ground_temperature_);
+    double resistivities = 0.0, count = 0.0, flow = 0.0, square = 0.0;
+    for (const Site& site : window) {
+        if (!site.is_covered) {
+            resistivities += site.resistivity;
+            ++count;
+        }
+        const double mean = site.is_covered ? site.resistivity : resistivities / count;
+        const double resistance = site.blanket + site.depth * mean;
+        flow += resistance * (site.temperature - ground_temperature_);
         square += resistance * resistance;
     }
     return square > 0.0 ? 1e3 * flow / square : std::numeric_limits<double>::quiet_NaN();

@@ -56,7 +56,7 @@ public:
     double balance_error() const;
 
     /// Tells heat and its points what comes and goes beside the hanging wall; see GroundBeside.
-    void cover_by(const std::function<double(double x)>& cover) {
+    void cover_by(const std::function<Cover(double x)>& cover) {
         setting_.beside.cover = cover;
         points_.cover_by(cover);
     }
@@ -72,16 +72,11 @@ public:
     /// The ground of the last solution, below the sediment that has come since.
     GroundLine solved_ground(const dem::State& state, const dem::RigidBase& base) const;
 
-    /// Resistance of the film of sediment on a ground, m^2 K/W. Without film: 0.
-    class Blanket {
-    public:
-        Blanket(const Heat& heat, const dem::State& state, const dem::RigidBase& base);
-        double at(double x, const GroundLine& ground) const;
-
-    private:
-        std::optional<dem::FilmNow> film_;
-        double conductivity_ = 1.0; ///< W/m/K
-    };
+    /// Resistance of sediment that no disc stands for between cells and a ground, by cell, m^2 K/W:
+    /// of the film, and by how much more than rock's is that of what lies on rock without discs,
+    /// whose cells reach up through it.
+    std::vector<double> blanket(const dem::State& state, const dem::RigidBase& base,
+                                const GroundLine& ground, const Sites& sites) const;
 
     /// Temperature of the start at a place: above the ground of then, that of the ground.
     double start_temperature(dem::Point p) const;
@@ -127,6 +122,7 @@ public:
 private:
     struct Site {
         double x, depth, temperature, resistivity, blanket;
+        bool is_covered; ///< by sediment alone: its column is its own
     };
     std::vector<Site> sites_; ///< by ascending x
     double ground_temperature_;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/base/sediment_film.hpp"
 #include "dem/base/target_line.hpp"
+#include "dem/beds.hpp"
 #include "dem/event.hpp"
 #include "thermal/geotherm.hpp"
 #include "thermal/ground_line.hpp"
@@ -34,9 +34,8 @@ struct HeatSetting {
     std::optional<PureShear> shear = {};     ///< none: what is below the detachment rests
     std::vector<double> rock_densities = {}; ///< bulk: of rock without layer, then of layers
     double grain_density = 2600.0;           ///< of sediment, kg/m^3
-    double surface_porosity = 0.5;
+    dem::PorosityLaw pores = {.surface_porosity = 0.5, .coefficient = 0.0}; ///< of sediment
     double crust_density = 2700.0, mantle_density = 3300.0; ///< of rock without discs, kg/m^3
-    std::optional<dem::SedimentFilm> film = {};             ///< none: no sediment comes
 };
 
 /// The section that has temperatures: 150 km beyond what moves, which is three times as far as
@@ -81,7 +80,7 @@ public:
     double carried_out() const { return carried_out_; }
 
     /// See GroundBeside.
-    void cover_by(std::function<double(double x)> cover) {
+    void cover_by(std::function<Cover(double x)> cover) {
         setting_.beside.cover = std::move(cover);
     }
 

@@ -31,6 +31,9 @@ struct SedimentFilm {
     Beds beds = {};
     double wall_x = 0.0; ///< right end of the hanging wall before extension, m
 
+    /// What strata are laid down up to at a travel.
+    TargetLine target_at(Travel travel) const;
+
     /// Now; none where the present stage does not fill.
     std::optional<FilmNow> now(const State& state, const RigidBase& base) const;
 };

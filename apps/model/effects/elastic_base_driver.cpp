@@ -114,9 +114,14 @@ public:
                                    loads);
           })) {
         if (auto* const heat = find<thermal::Heat>(events))
-            heat->cover_by([this](double x) { return loads_.cover(x); });
-        if (footwall_->stress_points().empty())
+            heat->cover_by([this](double x) {
+                return thermal::Cover{loads_.cover(x), loads_.sediment(x)};
+            });
+        if (footwall_->stress_points().empty()) {
+            if (const Calendar calendar = make_calendar(scene); !calendar.pauses().empty())
+                loads.push_back(std::make_unique<PromptBase>(*base_, calendar));
             return;
+        }
         if (const auto& temperature = elastic_base(scene)->isotherm) {
             auto moving = make_isotherm(scene, *temperature, events);
             isotherm_ = moving.get();

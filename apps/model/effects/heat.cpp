@@ -79,8 +79,9 @@ thermal::HeatSetting setting(const Scene& scene, const ModelParts& parts) {
     const P& p = *scene.find<P>();
     const dem::TargetLine ground = dem::ground_of(scene.hanging_wall);
     thermal::HeatSetting s;
-    s.beside = {ground.height(0.0), ground.height(scene.hanging_wall.length),
-                scene.hanging_wall.length};
+    s.beside.left = ground.height(0.0);
+    s.beside.right = ground.height(scene.hanging_wall.length);
+    s.beside.wall_x = scene.hanging_wall.length;
     s.ground = ground;
     s.greatest_extension = greatest_extension(scene);
     if (const auto& crust = parts.stretched_crust)
@@ -91,9 +92,9 @@ thermal::HeatSetting setting(const Scene& scene, const ModelParts& parts) {
         s.rock_densities.push_back(layer.rock.density);
     if (parts.sediment) {
         s.grain_density = parts.sediment->grain_density;
-        s.surface_porosity = parts.sediment->surface_porosity;
+        s.pores = {parts.sediment->surface_porosity, parts.sediment->porosity_decay.value_or(0.0)};
     }
-    s.film = parts.film;
+    s.beside.film = parts.film;
     if (const BendingBase* base = bending_base(scene)) {
         s.crust_density = base->crust_density;
         s.mantle_density = base->mantle_density;

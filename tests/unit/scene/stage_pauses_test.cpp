@@ -107,5 +107,33 @@ TEST(PauseRecord, IsThereForPausesAlone) {
     EXPECT_TRUE(PauseRecord::is_needed({.speed = 1.0, .stages = {pause(0.0, 1.0)}}));
 }
 
+/// Two steps of a pause. What rock does before the last quarter of a step is no unrest.
+TEST(StepRecord, FindsStepsThatDoNotComeToRest) {
+    State state = make_state(cloud(12, 12, 50.0, 3));
+    effects::stage::StepRecord record(Calendar(0.01, {{Travel(100.0), Travel(200.0), 2, 1e6}}),
+                                      false);
+    record.begin(state);
+    const DiscColumns d = disc_columns(state);
+    d.stratum[0] = 1;
+    const auto go = [&](double rock) {
+        for (std::size_t i = 1; i < d.x.size(); ++i)
+            d.y[i] -= rock * state.mean_radius;
+        d.y[0] -= 1e3; // sediment falls
+        record.apply(state, {});
+        ++record.applied;
+    };
+    EXPECT_EQ(record.next_due().m, 250.0);
+    go(1.0);
+    EXPECT_EQ(record.next_due().m, 300.0);
+    go(0.0099);
+    EXPECT_NEAR(record.last(), 0.0099 * state.mean_radius, 1e-9);
+    EXPECT_EQ(record.unsettled(), 0.0);
+    go(1.0);
+    go(0.0101);
+    EXPECT_EQ(record.unsettled(), 1.0);
+    EXPECT_EQ(record.steps(), 2.0);
+    EXPECT_EQ(record.next_due().m, std::numeric_limits<double>::infinity());
+}
+
 } // namespace
 } // namespace listric::pause_record_test

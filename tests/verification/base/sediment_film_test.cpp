@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -88,6 +89,45 @@ TEST(SedimentFilm, FillsUpToADisc) {
     EXPECT_NEAR(film_weight(higher, parameters(-260.0)), per_metre * 40.0, 1e-9 * per_metre);
 }
 
+/// On the base where that is bare above the discs' ground: a scarp.
+TEST(SedimentFilm, LiesOnTheBareBase) {
+    Section section(80.0);
+    const BaseNodeColumns nodes = base_node_columns(section.state);
+    constexpr double scarp = 2e3;
+    for (std::size_t k = 0; k < nodes.x.size(); ++k)
+        if (nodes.x[k] <= scarp)
+            nodes.uy[k] = 2e3 - 20.0;
+    const double expected =
+        (1.0 - porosity) * grains * gravity * (scarp * 20.0 + 80.0 * (wall - scarp));
+    EXPECT_NEAR(film_weight(section, parameters(0.0)), expected, 1e-9 * expected);
+}
+
+/// Its top is the target of now, its pores are those of the bed of now.
+TEST(SedimentFilm, GoesByItsAge) {
+    Section section(80.0);
+    SedimentFilm film = parameters(0.0).film; // strata are 500 m of travel apart
+    film.target = Target(0.0, {{0.0, {{0.0, 0.0}}}, {100e3, {{0.0, 50.0}}}});
+    film.beds = {.list = {{100e3, {.surface_porosity = 0.3}}, {1e9, {.surface_porosity = 0.6}}},
+                 .deposition = film.deposition};
+    for (const auto& [travel, top, pores] :
+         {std::array{400.0, 20.0, 0.3}, {800.0, 40.0, 0.3}, {5000.0, 50.0, 0.6}}) {
+        section.state.clock.travel = Travel(travel);
+        const auto now = film.now(section.state, section.base);
+        EXPECT_DOUBLE_EQ(now->target.height(0.0), top);
+        EXPECT_DOUBLE_EQ(now->porosity, pores);
+    }
+}
+
+/// It is weighed at every stratum, and in between so often that travel is at most 25 m.
+TEST(SedimentFilm, IsWeighedOften) {
+    SedimentFilm film;
+    for (const auto& [strata, between] :
+         {std::pair{500.0, 25.0}, {130.0, 130.0 / 6.0}, {20.0, 20.0}}) {
+        film.deposition = Schedule(strata / 0.01, 0.01);
+        EXPECT_NEAR(film_schedule(film).spacing(), between, 1e-9);
+    }
+}
+
 /// Where the present stage does not fill, the room is of water or air.
 TEST(SedimentFilm, IsWhereTheStageFills) {
     Section section(80.0);
@@ -103,7 +143,7 @@ TEST(SedimentFilm, IsWhereTheStageFills) {
 /// Both below the level and half out of it. The sum is that of saturated sediment below water:
 /// nothing is counted twice.
 TEST(SedimentFilm, LiesInTheWater) {
-    for (const double level : {0.0, -50.0, -200.0}) {
+    for (const double level : {0.0, -50.0, -200.0, -250.0}) {
         constexpr double depth = 300.0, thickness = 2.0 * r; // up to -200 m
         const double wet = std::clamp(level + depth, 0.0, thickness);
         const double above = std::max(0.0, level + depth - thickness);

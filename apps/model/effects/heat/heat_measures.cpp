@@ -46,7 +46,7 @@ std::vector<WarmDisc> warm_discs(const Observation& now) {
         if (d.stratum[i] == 0 || !(reflectance[i] > 0.0)) // rock, or came since the last solution
             continue;
         const double porosity = compacts ? state.discs.get(dem::columns::porosity)[i]
-                                         : heat->setting().surface_porosity;
+                                         : heat->setting().pores.surface_porosity;
         warm.push_back({i, d.x[i], d.y[i], std::max(0.0, ground.depth({d.x[i], d.y[i]})),
                         d.mass[i] / heat->setting().grain_density / (1.0 - porosity), porosity,
                         calendar.years(dem::Travel(d.start_travel[i]), state.clock.travel),
