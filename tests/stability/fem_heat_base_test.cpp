@@ -73,16 +73,23 @@ protected:
     State last_state(const std::string& name) const {
         return read_snapshot(list_snapshots(folder / name).back()).state;
     }
+    /// Whether the base goes at once to where a step's loads move it.
+    bool is_prompt(const std::string& name) const {
+        return read_snapshot(list_snapshots(folder / name).back())
+            .event_memory.contains("prompt_base");
+    }
 };
 
 TEST_F(HeatBaseRun, HasTheSameBitsHoweverItIsRun) {
     expect_the_same_bits(load(heat, {"elastic_base.elastic_thickness_m=1000"}), 400.0);
+    EXPECT_TRUE(is_prompt("whole"));
 }
 
 TEST_F(HeatBaseRun, HasTheSameBitsWithAnIsotherm) {
     const Scene s =
         load(heat, {"elastic_base.elastic_isotherm_c=90", "heat.regional_extension_m=15000"});
-    expect_the_same_bits(s, 750.0); // it has moved after 660 m
+    expect_the_same_bits(s, 750.0);   // it has moved after 660 m
+    EXPECT_FALSE(is_prompt("whole")); // its stiffness changes
     const State end = last_state("whole");
     const Table& line = end.base_memory.at("isotherm");
     EXPECT_GT(line.get<double>("since")[0], 500.0);

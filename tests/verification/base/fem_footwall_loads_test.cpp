@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace listric::fem_footwall_loads_test {
@@ -212,6 +213,22 @@ TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
             u += pressure[k] * response_.interface[k * unknowns + i];
         EXPECT_NEAR(u, share * eroded_.front(), 0.1);
     }
+}
+
+/// What heat asks for: height and sediment by x, linear between knots, nothing left of them.
+TEST_F(Erosion, TellsWhatLiesOnTheFlank) {
+    FootwallErosion erosion(response_, {}, nullptr, erosion_, standard_gravity,
+                            dem::Calendar(0.01));
+    const auto eroded = erosion.memory.get<double>("eroded");
+    const auto deposited = erosion.memory.get<double>("deposited");
+    std::ranges::fill(eroded, 100.0);
+    for (std::size_t k = 0; k < deposited.size(); ++k)
+        deposited[k] = 10.0 * static_cast<double>(k);
+    EXPECT_DOUBLE_EQ(erosion.sediment(response_.x[2]), 20.0);
+    EXPECT_DOUBLE_EQ(erosion.sediment(0.5 * (response_.x[2] + response_.x[3])), 25.0);
+    EXPECT_DOUBLE_EQ(erosion.cover(response_.x[2]), -80.0);
+    EXPECT_EQ(erosion.sediment(response_.x[0] - 1.0), 0.0);
+    EXPECT_EQ(erosion.cover(response_.x[0] - 1.0), 0.0);
 }
 
 TEST_F(Erosion, FillsHollowsAndTakesSedimentFirst) {
