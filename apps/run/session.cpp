@@ -23,14 +23,13 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log, Output
 }
 
 RunOutcome Session::run() {
-    const RunOptions& options = run_.options;
-    run_.expect(forecast_now(run_.scene, run_.target().m, options.threads, run_.ranks(),
-                             options.figures && options.lean == Lean::no));
-    if (!options.warned)
+    run_.expect(forecast_now(run_.scene, run_.target().m, run_.options.threads, run_.ranks(),
+                             run_.options.figures));
+    if (!run_.options.warned)
         for (const std::string& warning : run_.scene.warnings)
             run_.log.say("warning: " + warning);
     try {
-        if (!options.resume || !resume())
+        if (!run_.options.resume || !resume())
             begin();
         extend();
         finish();
