@@ -23,8 +23,7 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log, Output
 }
 
 RunOutcome Session::run() {
-    run_.expect(forecast_now(run_.scene, run_.target().m, run_.options.threads, run_.ranks(),
-                             run_.options.figures));
+    run_.expect(forecast_now(run_.scene, run_.target().m, run_.options, run_.ranks()));
     if (!run_.options.warned)
         for (const std::string& warning : run_.scene.warnings)
             run_.log.say("warning: " + warning);

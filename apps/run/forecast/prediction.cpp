@@ -234,17 +234,18 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     return p;
 }
 
-Forecast forecast_now(const Scene& scene, double target, int threads, int ranks, bool draws) {
+Forecast forecast_now(const Scene& scene, double target, const RunOptions& options, int ranks) {
     const ModelParts parts = make_parts(scene);
+    const int threads = options.threads;
     CycleSpeed speed = measure_speed(estimated_discs(scene), threads, 0.1, parts.accounts_energy);
     speed.team *= ranks;
     Scene to_target = scene;
     to_target.extension.distance = target;
     Forecast forecast = predict(to_target, speed).forecast;
-    if (!draws)
+    if (!options.figures)
         forecast.after = 0.0;
     // Where the team leaves no core to them, pictures drawn beside the cycle take its time.
-    if (draws && threads * ranks >= usable_cores()) {
+    if (options.figures && threads * ranks >= usable_cores()) {
         const Motion& motion = parts.base.motion;
         forecast.picture = run_prices.figure_beside / speed.one_thread;
         for (const double at : scene.output.figures)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/run/forecast/time_left.hpp"
+#include "apps/run/options.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <cstddef>
@@ -67,8 +68,7 @@ inline constexpr double most_of_report = 2e8;
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
 
 /// Predicted wall time of a run to an extension, m, that begins now, beside other programs.
-/// @param threads  of each rank
-/// @param draws    figures
-Forecast forecast_now(const Scene& scene, double target, int threads, int ranks, bool draws);
+/// @param options  how it is run: threads of each rank, and whether figures are drawn
+Forecast forecast_now(const Scene& scene, double target, const RunOptions& options, int ranks);
 
 } // namespace listric
