@@ -1,6 +1,7 @@
 #include "apps/run/forecast/prediction.hpp"
 
 #include "apps/model/model.hpp"
+#include "apps/run/genesis_cache.hpp"
 #include "apps/support/machine/cores.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
+#include <system_error>
 
 namespace listric {
 
@@ -244,6 +247,9 @@ Forecast forecast_now(const Scene& scene, double target, const RunOptions& optio
     Forecast forecast = predict(to_target, speed).forecast;
     if (!options.figures)
         forecast.after = 0.0;
+    std::error_code unreadable; // then the hanging wall is made anew
+    if (std::filesystem::exists(genesis_cache_path(scene, parts), unreadable))
+        forecast.before = 0.0;
     // Where the team leaves no core to them, pictures drawn beside the cycle take its time.
     if (options.figures && threads * ranks >= usable_cores()) {
         const Motion& motion = parts.base.motion;
