@@ -3,6 +3,7 @@
 
 #include "dem/columns.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/thermal/sections.hpp"
 #include "thermal/heat.hpp"
 
 #include <gtest/gtest.h>
@@ -22,20 +23,7 @@ constexpr double radius = 75.0, length = 3e3, depth = 1500.0, sunk = 900.0;
 
 /// Rows of discs up to 0 m on rock that has sunk.
 State basin() {
-    State state = empty_state();
-    state.mean_radius = radius;
-    const auto columns = static_cast<int>(length / (2.0 * radius));
-    const auto rows = static_cast<int>(depth / (2.0 * radius));
-    add_discs(state, static_cast<std::size_t>(columns * rows));
-    const DiscColumns d = disc_columns(state);
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const auto i = static_cast<std::size_t>(row * columns + column);
-            d.x[i] = (2 * column + 1) * radius;
-            d.y[i] = -(2 * row + 1) * radius;
-            d.radius[i] = radius;
-            d.mass[i] = 2600.0 * 4.0 * radius * radius;
-        }
+    State state = support::rows_of_discs(length, depth, radius);
     const std::vector<double> x{-250e3, 0.0, 250e3}, y(3, 0.0);
     add_base_nodes(state, x, y);
     std::ranges::fill(base_node_columns(state).uy, -sunk);

@@ -4,6 +4,7 @@
 
 #include "dem/columns.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/thermal/sections.hpp"
 #include "thermal/columns.hpp"
 #include "thermal/heat.hpp"
 
@@ -24,28 +25,9 @@ namespace {
 constexpr double depth = 150.0, length = 2e3, radius = 75.0, width = 400e3;
 constexpr double mantle = 3330.0, water = 1000.0;
 
-/// Discs in rows on a flat base between walls that stay.
-State rows_of_discs() {
-    State state = empty_state();
-    state.mean_radius = radius;
-    const auto columns = static_cast<int>(length / (2.0 * radius));
-    const auto rows = static_cast<int>(depth / (2.0 * radius));
-    add_discs(state, static_cast<std::size_t>(columns * rows));
-    const DiscColumns d = disc_columns(state);
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const auto i = static_cast<std::size_t>(row * columns + column);
-            d.x[i] = (2 * column + 1) * radius;
-            d.y[i] = -(2 * row + 1) * radius;
-            d.radius[i] = radius;
-            d.mass[i] = 2600.0 * 4.0 * radius * radius;
-        }
-    return state;
-}
-
 /// A rift of a factor beta in some years, and steps of 10 Ma of rest after it.
 struct Rift {
-    State state = rows_of_discs();
+    State state = support::rows_of_discs(length, depth, radius);
     RigidBase base;
     HeatPoints points;
     Heat heat;

@@ -2,19 +2,41 @@
 
 // Sections of discs or points on which heat flows, for exact solutions.
 
+#include "dem/columns.hpp"
 #include "dem/numbers/hash.hpp"
 #include "dem/numbers/units.hpp"
+#include "dem/state.hpp"
 #include "thermal/conduction.hpp"
 #include "thermal/ground_line.hpp"
 #include "thermal/site_cells.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace listric::support {
 
 constexpr double years = dem::seconds_per_year;
+
+/// Discs of 2600 kg/m^3 of their squares, in rows from 0 m down.
+inline dem::State rows_of_discs(double length, double depth, double radius) {
+    dem::State state = dem::empty_state();
+    state.mean_radius = radius;
+    const auto columns = static_cast<int>(length / (2.0 * radius));
+    const auto rows = static_cast<int>(depth / (2.0 * radius));
+    dem::add_discs(state, static_cast<std::size_t>(columns * rows));
+    const dem::DiscColumns d = dem::disc_columns(state);
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const auto i = static_cast<std::size_t>(row * columns + column);
+            d.x[i] = (2 * column + 1) * radius;
+            d.y[i] = -(2 * row + 1) * radius;
+            d.radius[i] = radius;
+            d.mass[i] = 2600.0 * 4.0 * radius * radius;
+        }
+    return state;
+}
 
 /// Points in jittered rows in a box whose ground is level at 0.
 inline thermal::Sites jittered_rows(double width, double depth, double spacing, double jitter) {
